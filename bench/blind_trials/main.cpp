@@ -1,6 +1,6 @@
 // Blind trials of the diagnosis (docs/METHODS.md, "Diagnosis"): the virtual laboratory hides effects, nacre diagnose
-// sees the measurements alone, the answers are opened for scoring. A folder per trial and a line in the study's table;
-// what has a line is not done again.
+// sees the measurements alone, the truth is opened for scoring. A folder per trial and a line in the study's table; a
+// trial that has a line is not repeated.
 
 #include <chrono>
 
@@ -25,12 +25,12 @@ struct Options {
   double seconds = 1e9;
 };
 
-/// Seeds of a report follow from the commit under test, so that nobody chooses them.
+/// Seeds of a report follow from the commit under test, so that they cannot be chosen.
 std::uint64_t report_seed(const std::string& commit) {
   return 1'000'000 + std::stoull(commit.substr(0, 7), nullptr, 16) * 1000;
 }
 
-/// Hides, prints, measures, asks; a trial that was asked before and has no line yet is opened only.
+/// Hides, prints, measures, diagnoses; a trial that was diagnosed before and has no line yet is opened only.
 TrialDiagnosis play(const BlindTrial& trial, const Options& options) {
   const fs::path folder = fs::path(options.work) / trial.name;
   if (!fs::exists(folder / "diagnosis.json")) {
@@ -41,10 +41,11 @@ TrialDiagnosis play(const BlindTrial& trial, const Options& options) {
       diagnose(options.trials, folder);
     }
   }
-  return open_answer(trial, options.commit, folder);
+  return open_trial(trial, options.commit, folder);
 }
 
-/// Held-out gains of the trials that were named rightly, beside the true model's: a line in the table of gains each.
+/// Gains in cross-validation of the trials that were named rightly, with that of the true model: a line in the table of
+/// gains each.
 void compare_gains(const Options& options, const std::vector<Score>& scores) {
   study::TextTable table(options.gains, {"trial", "named", "truth", "named_features", "truth_features"});
   for (const Score& s : scores) {
@@ -62,7 +63,7 @@ void run(Options options) {
   options.trials.fidelity = *tester::fidelity_from_string(options.fidelity);
   if (!options.report.empty()) options.trials.first_seed = report_seed(options.report);
   const auto began = std::chrono::steady_clock::now();
-  study::TextTable table(options.table.empty() ? options.work + ".csv" : options.table, answer_columns());
+  study::TextTable table(options.table.empty() ? options.work + ".csv" : options.table, diagnosis_columns());
   std::vector<Score> scores;
   int waiting = 0;
   for (const BlindTrial& trial : all_trials(options.trials)) {
@@ -74,9 +75,9 @@ void run(Options options) {
       continue;
     }
     if (!finished) table.add(trial.name, to_cells(play(trial, options)));
-    scores.push_back(score_of(trial, answer_from_cells(*table.find(trial.name))));
+    scores.push_back(score_of(trial, diagnosis_from_cells(*table.find(trial.name))));
     if (!finished)
-      fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().answer.verdict,
+      fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().diagnosis.verdict,
                  scores.back().right_name ? "(right)" : "");
   }
   if (waiting > 0) fmt::print(stderr, "{} trials are still waiting: run it again\n", waiting);
@@ -91,14 +92,13 @@ int main(int argc, char** argv) {
   Options options;
   study::add_fidelity_option(app, options.fidelity);
   options.trials.program = (runtime::this_program().parent_path() / "nacre").string();
-  app.add_option("--program", options.trials.program, "nacre under test; default: the one beside this program")
+  app.add_option("--program", options.trials.program, "nacre under test; default: the one next to this program")
       ->capture_default_str();
   app.add_option("--work", options.work, "Folder of the trials")->capture_default_str();
-  app.add_flag("--fracture", options.trials.fracture, "Toughness specimens beside the moduli");
+  app.add_flag("--fracture", options.trials.fracture, "Toughness specimens besides the moduli");
   app.add_option("--nulls", options.trials.nulls)->capture_default_str();
   app.add_option("--outside", options.trials.outside)->capture_default_str();
-  app.add_option("--forms", options.trials.forms, "Trials of effects of the library in another form")
-      ->capture_default_str();
+  app.add_option("--forms", options.trials.forms, "Trials of known effects in another form")->capture_default_str();
   app.add_option("--doubles", options.trials.doubles)->capture_default_str();
   app.add_option("--alike", options.trials.alike)->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();
@@ -113,8 +113,9 @@ int main(int argc, char** argv) {
   app.add_option("--report", options.report, "Commit under test, hexadecimal: a report, with seeds of its own")
       ->excludes("--first-seed");
   app.add_option("--only", options.only, "Trials whose name contains this");
-  app.add_option("--gains", options.gains,
-                 "CSV of held-out gains, of what is named and of the true model, for trials that were named rightly");
+  app.add_option(
+      "--gains", options.gains,
+      "CSV of gains in cross-validation, of the named and of the true model, for trials that were named rightly");
   app.add_option("--seconds", options.seconds, "Begins nothing new after so long");
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });

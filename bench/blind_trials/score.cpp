@@ -31,18 +31,19 @@ std::string rate(int good, int all) {
                      100 * std::max(0.0, middle - half), 100 * (middle + half));
 }
 
-std::vector<std::string> names_of(const TrialDiagnosis& answer) {
+std::vector<std::string> names_of(const TrialDiagnosis& diagnosis) {
   std::vector<std::string> names;
-  for (const Named& named : answer.named) names.push_back(named.effect);
+  for (const FoundEffect& named : diagnosis.named) names.push_back(named.effect);
   return names;
 }
 
-std::string answer_of(const Score& score) {
-  return score.answer.verdict == "named" ? fmt::format("{}", fmt::join(names_of(score.answer), "+"))
-                                         : score.answer.verdict;
+/// The named effects, else the verdict.
+std::string outcome_of(const Score& score) {
+  return score.diagnosis.verdict == "named" ? fmt::format("{}", fmt::join(names_of(score.diagnosis), "+"))
+                                            : score.diagnosis.verdict;
 }
 
-/// Of the library; empty for what is of none.
+/// Family of an effect; empty for an unmodelled cause.
 std::string_view family_of(const std::string& effect) {
   for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
     if (kind.name != effect) continue;
@@ -52,63 +53,65 @@ std::string_view family_of(const std::string& effect) {
 }
 
 /// The hidden effect that is hardest to see.
-Hidden faintest(const Score& score) {
-  const auto& hidden = score.answer.hidden;
-  return hidden.empty() ? Hidden{}
+SealedEffect faintest(const Score& score) {
+  const auto& hidden = score.diagnosis.hidden;
+  return hidden.empty() ? SealedEffect{}
                         : *std::min_element(hidden.begin(), hidden.end(),
-                                            [](const Hidden& a, const Hidden& b) { return a.s < b.s; });
+                                            [](const SealedEffect& a, const SealedEffect& b) { return a.snr < b.snr; });
 }
 
-// Which trials a rate is over, and what counts as reached in them.
+// Which trials a rate is over, and when it is reached in them.
 using Condition = std::function<bool(const Score&)>;
 
 Condition of_kind(std::string_view kind) {
   return [kind](const Score& s) { return s.trial.kind == kind; };
 }
 Condition visible_of_kind(std::string_view kind) {
-  return [kind](const Score& s) { return s.trial.kind == kind && faintest(s).s >= 8.0; };
+  return [kind](const Score& s) { return s.trial.kind == kind && faintest(s).snr >= 8.0; };
 }
-Condition answered(std::string_view verdict) {
-  return [verdict](const Score& s) { return s.answer.verdict == verdict; };
+Condition has_verdict(std::string_view verdict) {
+  return [verdict](const Score& s) { return s.diagnosis.verdict == verdict; };
 }
 bool fair(const Score& s) {
-  const Hidden hidden = faintest(s);
-  return s.trial.kind == "effect" && hidden.s >= 8.0 && hidden.s * std::sqrt((1.0 - hidden.rho) / 2.0) >= 2.2;
+  const SealedEffect hidden = faintest(s);
+  return s.trial.kind == "effect" && hidden.snr >= 8.0 &&
+         hidden.snr * std::sqrt((1.0 - hidden.collinearity) / 2.0) >= 2.2;
 }
 bool named_rightly(const Score& s) { return s.right_name; }
 bool named_wrongly(const Score& s) {
-  return s.answer.verdict == "named" && std::ranges::any_of(s.answer.named, [&](const Named& named) {
+  return s.diagnosis.verdict == "named" && std::ranges::any_of(s.diagnosis.named, [&](const FoundEffect& named) {
            return std::ranges::count(s.trial.hidden, named.effect) == 0;
          });
 }
-bool named_of_another_family(const Score& s) { return s.answer.verdict == "named" && !s.right_family; }
+bool named_of_another_family(const Score& s) { return s.diagnosis.verdict == "named" && !s.right_family; }
 
-struct Rate {
+struct TrialRate {
   std::string_view name;
   Condition over, reached;
   std::string_view aim;
 };
 
-std::vector<Rate> rates() {
+std::vector<TrialRate> rates() {
   const Condition in_set = [](const Score& s) { return s.in_set; };
   const Condition right_family = [](const Score& s) { return s.right_family; };
-  const Condition right_set = [](const Score& s) { return s.answer.verdict == "ambiguous" && s.in_set; };
+  const Condition right_set = [](const Score& s) { return s.diagnosis.verdict == "ambiguous" && s.in_set; };
   return {
-      {"nulls: base sufficient", of_kind("null"), answered("base_sufficient"), ">= 97 %"},
-      {"nulls: any name", of_kind("null"), answered("named"), "<= 2 % at the upper bound"},
-      {"right single name, s >= 8 and distance >= 2.2", fair, named_rightly, ">= 95 %"},
-      {"true cause within the set, s >= 8", visible_of_kind("effect"), in_set, ">= 99 %"},
+      {"nulls: base sufficient", of_kind("null"), has_verdict("base_sufficient"), ">= 97 %"},
+      {"nulls: any name", of_kind("null"), has_verdict("named"), "<= 2 % at the upper bound"},
+      {"right single name, SNR >= 8 and distance >= 2.2", fair, named_rightly, ">= 95 %"},
+      {"true cause within the set, SNR >= 8", visible_of_kind("effect"), in_set, ">= 99 %"},
       {"confident wrong name, all effects", of_kind("effect"), named_wrongly, ""},
-      {"out of library, s >= 8: unexplained", visible_of_kind("outside"), answered("unexplained"), ">= 90 %"},
-      {"out of library, all: unexplained", of_kind("outside"), answered("unexplained"), ""},
-      {"out of library: a name", of_kind("outside"), answered("named"), "<= 3 %"},
-      {"evenly along one condition, s >= 8: unexplained", visible_of_kind("even"), answered("unexplained"), ">= 90 %"},
-      {"evenly along one condition: a name", of_kind("even"), answered("named"), "<= 3 %"},
-      {"another form of a library effect: a name of another family", of_kind("form"), named_of_another_family, ""},
-      {"another form, s >= 8: its family named", visible_of_kind("form"), right_family, ""},
-      {"two at once, both s >= 8: both named", visible_of_kind("double"), named_rightly, ""},
+      {"unmodelled cause, SNR >= 8: unexplained", visible_of_kind("outside"), has_verdict("unexplained"), ">= 90 %"},
+      {"unmodelled cause, all: unexplained", of_kind("outside"), has_verdict("unexplained"), ""},
+      {"unmodelled cause: a name", of_kind("outside"), has_verdict("named"), "<= 3 %"},
+      {"evenly along one condition, SNR >= 8: unexplained", visible_of_kind("even"), has_verdict("unexplained"),
+       ">= 90 %"},
+      {"evenly along one condition: a name", of_kind("even"), has_verdict("named"), "<= 3 %"},
+      {"another form of a known effect: a name of another family", of_kind("form"), named_of_another_family, ""},
+      {"another form, SNR >= 8: its family named", visible_of_kind("form"), right_family, ""},
+      {"two at once, both SNR >= 8: both named", visible_of_kind("double"), named_rightly, ""},
       {"two at once: a wrong name", of_kind("double"), named_wrongly, ""},
-      {"alike: right single name", of_kind("alike"), named_rightly, ""},
+      {"collinear causes: right single name", of_kind("alike"), named_rightly, ""},
       {"pair: reported as a set", of_kind("pair"), right_set, ">= 95 %"},
       {"pair: resolved by the tests it orders, four at most", of_kind("resolved"), named_rightly, ">= 80 %"},
   };
@@ -121,7 +124,7 @@ std::string row_of(std::string_view name, const std::string& reached, std::strin
 
 std::string rate_table(const std::vector<Score>& scores) {
   std::string text = "| score | reached | aim |\n| --- | --- | --- |\n";
-  for (const Rate& each : rates()) {
+  for (const TrialRate& each : rates()) {
     int all = 0, right = 0;
     for (const Score& s : scores)
       if (each.over(s)) ++all, right += each.reached(s);
@@ -130,17 +133,17 @@ std::string rate_table(const std::vector<Score>& scores) {
   return text;
 }
 
-/// How well the sizes of rightly named effects are told.
+/// Errors of the sizes of rightly named effects.
 std::string size_rows(const std::vector<Score>& scores) {
   std::vector<double> errors;
   int covered = 0, sized = 0;
   for (const Score& s : scores) {
     if (s.parameter_error < 0.0) continue;
     ++sized, covered += s.covered;
-    if (faintest(s).s >= 16.0) errors.push_back(s.parameter_error);
+    if (faintest(s).snr >= 16.0) errors.push_back(s.parameter_error);
   }
   std::sort(errors.begin(), errors.end());
-  return row_of("size: median error, s >= 16",
+  return row_of("size: median error, SNR >= 16",
                 errors.empty() ? "none" : fmt::format("{:.1f} % of {}", 100 * errors[errors.size() / 2], errors.size()),
                 "<= 5 %") +
          row_of("size: 90 % intervals hold it", rate(covered, sized), "85 to 95 %");
@@ -148,33 +151,34 @@ std::string size_rows(const std::vector<Score>& scores) {
 
 std::string confusion_table(const std::vector<Score>& scores) {
   std::map<std::string, std::map<std::string, int>> confusion;
-  std::map<std::string, int> answers;
+  std::map<std::string, int> outcomes;
   for (const Score& s : scores) {
     const std::string hidden = s.trial.hidden.empty() ? "nothing" : fmt::format("{}", fmt::join(s.trial.hidden, "+"));
-    ++confusion[s.trial.kind + ": " + hidden][answer_of(s)];
-    ++answers[answer_of(s)];
+    ++confusion[s.trial.kind + ": " + hidden][outcome_of(s)];
+    ++outcomes[outcome_of(s)];
   }
   std::string text = "| hidden |", rule = "\n| --- |";
-  for (const auto& [answer, count] : answers) text += fmt::format(" {} |", answer), rule += " --- |";
+  for (const auto& [outcome, count] : outcomes) text += fmt::format(" {} |", outcome), rule += " --- |";
   text += rule;
   for (const auto& [hidden, row] : confusion) {
     text += fmt::format("\n| {} |", hidden);
-    for (const auto& [answer, count] : answers)
-      text += row.contains(answer) ? fmt::format(" {} |", row.at(answer)) : " |";
+    for (const auto& [outcome, count] : outcomes)
+      text += row.contains(outcome) ? fmt::format(" {} |", row.at(outcome)) : " |";
   }
   return text + "\n";
 }
 
 std::string trial_table(const std::vector<Score>& scores) {
   std::string text =
-      "| trial | s | rho | ceiling | answer | set | size error |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+      "| trial | SNR | collinearity | ceiling | outcome | set | size error |\n| --- | --- | --- | --- | --- | --- | "
+      "--- |\n";
   for (const Score& s : scores) {
-    const Hidden hidden = faintest(s);
+    const SealedEffect hidden = faintest(s);
     std::string set;
-    for (const auto& model : s.answer.possible)
+    for (const auto& model : s.diagnosis.possible)
       set += (set.empty() ? "" : " / ") + fmt::format("{}", fmt::join(model, "+"));
-    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, hidden.s, hidden.rho,
-                        hidden.ceiling, answer_of(s), set,
+    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, hidden.snr,
+                        hidden.collinearity, hidden.ceiling, outcome_of(s), set,
                         s.parameter_error < 0.0 ? "" : fmt::format("{:.0f} %", 100 * s.parameter_error));
   }
   return text;
@@ -182,19 +186,20 @@ std::string trial_table(const std::vector<Score>& scores) {
 
 }  // namespace
 
-Score score_of(const BlindTrial& trial, const TrialDiagnosis& answer) {
-  Score score{trial, answer};
-  score.right_name = answer.verdict == "named" && same(names_of(answer), trial.hidden);
-  score.in_set = std::any_of(answer.possible.begin(), answer.possible.end(),
+Score score_of(const BlindTrial& trial, const TrialDiagnosis& diagnosis) {
+  Score score{trial, diagnosis};
+  score.right_name = diagnosis.verdict == "named" && same(names_of(diagnosis), trial.hidden);
+  score.in_set = std::any_of(diagnosis.possible.begin(), diagnosis.possible.end(),
                              [&](const auto& model) { return same(model, trial.hidden); });
   if (trial.hidden.empty()) return score;
-  score.right_family = answer.verdict == "named" && std::ranges::all_of(answer.named, [&](const Named& named) {
-                         return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
-                       });
+  score.right_family =
+      diagnosis.verdict == "named" && std::ranges::all_of(diagnosis.named, [&](const FoundEffect& named) {
+        return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
+      });
   if (!score.right_name) return score;
-  const Named& named = *std::find_if(answer.named.begin(), answer.named.end(),
-                                     [&](const Named& n) { return n.effect == trial.hidden.front(); });
-  const double size = answer.hidden.front().size;
+  const FoundEffect& named = *std::find_if(diagnosis.named.begin(), diagnosis.named.end(),
+                                           [&](const FoundEffect& n) { return n.effect == trial.hidden.front(); });
+  const double size = diagnosis.hidden.front().size;
   score.parameter_error = std::abs(named.size / size - 1.0);
   score.covered = named.low90 <= size && size <= named.high90;
   return score;

@@ -34,8 +34,8 @@ using tester::TestKind;
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of
-/// either curve.
+/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between has no signature in the shape
+/// of either curve.
 constexpr double kSlow = 1e-6, kFast = 10.0, kPairRates[] = {kSlow, kFast};
 constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cause of a pair may have
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
@@ -122,7 +122,7 @@ Specimens without_fractures(Specimens specimens) {
   return specimens;
 }
 
-/// What the planned specimens show without scatter.
+/// The planned specimens with values without scatter.
 Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& experiments,
                           const std::vector<Result<lab::TrueResponse>>& responses, const Specimens& planned) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
@@ -135,7 +135,7 @@ Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& 
   return without_fractures(std::move(records));
 }
 
-/// What can be known of a trial's signals before anything scatters.
+/// Settings for the signals of a trial before anything scatters.
 struct Sealing {
   diagnosis::DiagnosisSettings settings;
   diagnosis::AssumedScatter scatter;
@@ -153,9 +153,10 @@ Sealing sealing_of(const TrialOptions& options, const lab::Truth& truth) {
   return sealing;
 }
 
-std::string signal_in_toml(std::string_view name, double s, double rho, std::string_view rival, double ceiling) {
+std::string signal_in_toml(std::string_view name, double snr, double collinearity, std::string_view rival,
+                           double ceiling) {
   return fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", name,
-                     s, rho, rival, ceiling);
+                     snr, collinearity, rival, ceiling);
 }
 
 /// The same truth with nothing hidden but the effects of these names.
@@ -169,8 +170,8 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
   return truth;
 }
 
-/// How well the specimens could show every hidden effect, beyond what the base imitates: the laboratory's own numerics
-/// with it alone and with nothing. Of those that the library knows the nearest rival too.
+/// Visibility of every hidden effect in the specimens, beyond what the base imitates: the laboratory's own simulations
+/// with it alone and with nothing. Of known effects the nearest rival too.
 std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const lab::Truth& truth,
                        const std::vector<lab::Experiment>& experiments, const Specimens& planned) {
   if (trial.hidden.empty()) return {};
@@ -178,20 +179,20 @@ std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const la
     const lab::Truth hiding = hiding_only(truth, names);
     return without_scatter(hiding, experiments, responses_of(hiding, experiments), planned);
   };
-  std::vector<diagnosis::PlannedEffect> library;  // rivals: asked for only where there are any
+  std::vector<diagnosis::PlannedEffect> rivals;  // computed only where there are any
   if (std::ranges::any_of(trial.hidden, material::find_effect))
-    library = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
+    rivals = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
   const Specimens plain = shown({});
   std::string text;
   for (const std::string& effect : trial.hidden) {
-    const double s = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
-    const auto known = std::ranges::find(library, effect, &diagnosis::PlannedEffect::name);
-    if (known == library.end()) {
-      text += signal_in_toml(effect, s, 0.0, "", 0.0);
+    const double snr = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
+    const auto known = std::ranges::find(rivals, effect, &diagnosis::PlannedEffect::name);
+    if (known == rivals.end()) {
+      text += signal_in_toml(effect, snr, 0.0, "", 0.0);
       continue;
     }
-    const double distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += signal_in_toml(effect, s, known->rival_cosine, known->nearest_rival,
+    const double distance = snr * std::sqrt((1.0 - known->rival_cosine) / 2.0);
+    text += signal_in_toml(effect, snr, known->rival_cosine, known->nearest_rival,
                            0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
   return text;
@@ -318,15 +319,15 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
 }
 
 void diagnose(const TrialOptions& options, const fs::path& folder) {
-  const std::string answer = (folder / "diagnosis.json").string();
+  const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
       fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
                   (folder / "set").string(), tester::to_string(options.fidelity), options.fracture ? "--fracture" : "",
-                  (folder / "store").string(), answer, (folder / "log").string());
+                  (folder / "store").string(), result, (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
-  fs::rename(answer + ".part", answer);
+  fs::rename(result + ".part", result);
 }
 
 void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {

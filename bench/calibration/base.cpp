@@ -1,4 +1,4 @@
-// Round 0: the base materials of Table 3.4, one at a time.
+// Part of the calibration study (commands.hpp): round 0, the base materials of Table 3.4, one at a time.
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 
 #include "case.hpp"
 #include "game/reference_tables.hpp"
+#include "sysid/offline.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {

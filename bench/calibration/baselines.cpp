@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/statistics.hpp"
+#include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {
 namespace {
@@ -11,12 +12,13 @@ using measurement::Replicates;
 
 double median(const std::vector<double>& values) { return values.empty() ? 0.0 : quantile(values, 0.5); }
 
-struct Line {
+/// A quantity as a line in the rigid fraction.
+struct FractionLine {
   double slope = 0.0, offset = 0.0;
   double at(double x) const { return offset + slope * x; }
 };
 
-Line least_squares(const std::vector<double>& x, const std::vector<double>& y) {
+FractionLine least_squares(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) mean_x += x[i] / n, mean_y += y[i] / n;
@@ -34,7 +36,7 @@ double mean_error(const std::vector<double>& predicted, const std::vector<double
 
 }  // namespace
 
-Baselines baselines_of(const Case& study_case) {
+Baselines baselines_of(const StudyCase& study_case) {
   std::vector<double> fraction, modulus, toughness, log_toughness;
   for (const Replicates& design : study_case.fitted) {
     fraction.push_back(design.design.rigid_fraction());
@@ -42,39 +44,41 @@ Baselines baselines_of(const Case& study_case) {
     toughness.push_back(design.toughness_pa);
     log_toughness.push_back(std::log(design.toughness_pa));
   }
-  const Line modulus_line = least_squares(fraction, modulus), toughness_line = least_squares(fraction, log_toughness);
-  std::vector<double> modulus_said, line_said, modulus_true, toughness_true;
+  const FractionLine modulus_line = least_squares(fraction, modulus),
+                     toughness_line = least_squares(fraction, log_toughness);
+  std::vector<double> modulus_by_line, toughness_by_line, modulus_measured, toughness_measured;
   for (const Replicates& design : study_case.held_out) {
-    modulus_said.push_back(modulus_line.at(design.design.rigid_fraction()));
-    line_said.push_back(std::exp(toughness_line.at(design.design.rigid_fraction())));
-    modulus_true.push_back(design.modulus_pa);
-    toughness_true.push_back(design.toughness_pa);
+    modulus_by_line.push_back(modulus_line.at(design.design.rigid_fraction()));
+    toughness_by_line.push_back(std::exp(toughness_line.at(design.design.rigid_fraction())));
+    modulus_measured.push_back(design.modulus_pa);
+    toughness_measured.push_back(design.toughness_pa);
   }
-  return {
-      .modulus_line = mean_error(modulus_said, modulus_true),
-      .toughness_constant = mean_error(std::vector<double>(toughness_true.size(), median(toughness)), toughness_true),
-      .toughness_line = mean_error(line_said, toughness_true),
-      .line_spearman = rank_correlation(line_said, toughness_true)};
+  return {.modulus_line = mean_error(modulus_by_line, modulus_measured),
+          .toughness_constant =
+              mean_error(std::vector<double>(toughness_measured.size(), median(toughness)), toughness_measured),
+          .toughness_line = mean_error(toughness_by_line, toughness_measured),
+          .line_spearman = rank_correlation(toughness_by_line, toughness_measured)};
 }
 
-Floor floor_of(const Case& study_case, sysid::LocalSimulator& simulator, const std::function<void()>& may_go_on) {
+ErrorFloor floor_of(const StudyCase& study_case, sysid::LocalSimulator& simulator,
+                    const std::function<void()>& may_go_on) {
   const material::ParameterSet truth{study_case.truth.modulus, study_case.truth.toughness, {}};
   const auto predictions = sysid::predict({truth}, study_case.held_out, simulator, may_go_on).front();
-  std::vector<double> modulus, toughness, modulus_true, toughness_true, modulus_ratio, toughness_ratio;
+  std::vector<double> modulus, toughness, modulus_measured, toughness_measured, modulus_ratio, toughness_ratio;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
     if (!predictions[i].modulus_pa || !predictions[i].toughness_pa) continue;
     modulus.push_back(*predictions[i].modulus_pa);
     toughness.push_back(*predictions[i].toughness_pa);
-    modulus_true.push_back(study_case.held_out[i].modulus_pa);
-    toughness_true.push_back(study_case.held_out[i].toughness_pa);
-    modulus_ratio.push_back(modulus_true.back() / modulus.back());
-    toughness_ratio.push_back(toughness_true.back() / toughness.back());
+    modulus_measured.push_back(study_case.held_out[i].modulus_pa);
+    toughness_measured.push_back(study_case.held_out[i].toughness_pa);
+    modulus_ratio.push_back(modulus_measured.back() / modulus.back());
+    toughness_ratio.push_back(toughness_measured.back() / toughness.back());
   }
   const double modulus_scale = median(modulus_ratio), toughness_scale = median(toughness_ratio);
   for (double& value : modulus) value *= modulus_scale;
   for (double& value : toughness) value *= toughness_scale;
-  return {mean_error(modulus, modulus_true), mean_error(toughness, toughness_true),
-          rank_correlation(toughness, toughness_true)};
+  return {mean_error(modulus, modulus_measured), mean_error(toughness, toughness_measured),
+          rank_correlation(toughness, toughness_measured)};
 }
 
 }  // namespace nacre::calibration_study

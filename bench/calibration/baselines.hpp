@@ -1,5 +1,6 @@
 #pragma once
-// What a prediction has to beat, and what it cannot.
+// Baselines of a prediction error: E and log T linear in the rigid fraction, and the error floor that discretisation
+// and scatter set.
 
 #include "case.hpp"
 
@@ -12,13 +13,14 @@ struct Baselines {
   double toughness_line = 0.0;      ///< log T linear in rigid fraction
   double line_spearman = 0.0;
 };
-Baselines baselines_of(const Case& study_case);
+Baselines baselines_of(const StudyCase& study_case);
 
-/// What testers at the laboratory's own constants would miss: two numerics of one truth after the best common rescaling
-/// (median), with the scatter of the replicates in it.
-struct Floor {
+/// Errors of testers at the laboratory's own constants, after the best common rescaling (median): two discretisations
+/// of one truth, with the scatter of the replicates in it.
+struct ErrorFloor {
   double modulus = 0.0, toughness = 0.0, toughness_spearman = 0.0;
 };
-Floor floor_of(const Case& study_case, sysid::LocalSimulator& simulator, const std::function<void()>& may_go_on);
+ErrorFloor floor_of(const StudyCase& study_case, sysid::LocalSimulator& simulator,
+                    const std::function<void()>& may_go_on);
 
 }  // namespace nacre::calibration_study

@@ -37,10 +37,10 @@ std::function<void()> deadline(double minutes) {
   };
 }
 
-Case measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
+StudyCase measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
   const auto fidelity = tester::fidelity_from_string(options.fidelity);
   if (!fidelity) throw InputError(fidelity.error().message);
-  Case result{study_truth(seed, *fidelity), {}, {}};
+  StudyCase result{study_truth(seed, *fidelity), {}, {}};
   for (const std::string& effect : options.effects) add_effect(result.truth, effect);
   const StudyDesigns designs = draw_designs(seed, options.fitted, kHeldOut);
   const std::string store = fmt::format("{}/laboratory-{}.bin", options.work, options.fidelity);

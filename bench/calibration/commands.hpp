@@ -1,4 +1,5 @@
 #pragma once
+// Commands of the calibration study and their options.
 
 #include <cstdint>
 #include <stdexcept>
@@ -15,7 +16,7 @@ struct Options {
   int fitted = 18;
   std::vector<std::string> searches = {"posterior"};
   int budget = 25, ensemble = 8;
-  std::string out = "docs/studies/calibration", work = "logs/calibration-study";
+  std::string out = "logs/calibration-study", work = "logs/calibration-study";
   double minutes = 9.0;
   std::vector<std::string> effects;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Which patterns a laboratory of the study measures.
+// Fitted and held-out patterns of the study.
 
 #include <cstdint>
 #include <vector>

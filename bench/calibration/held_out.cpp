@@ -1,4 +1,4 @@
-// Calibrate on some designs of a laboratory, predict others.
+// Part of the calibration study (commands.hpp): calibration on some designs of a laboratory, predictions of others.
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 
 #include "baselines.hpp"
 #include "case.hpp"
+#include "sysid/offline.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {
@@ -59,8 +60,8 @@ struct Coverage {
   int covered = 0, determined = 0;
 };
 
-/// How many of the parameters called determined have their true value in the 90 % interval; each parameter is a row of
-/// `intervals` behind `cells`.
+/// How many of the determined parameters have their true value in the 90 % interval; adds a row to `intervals`, behind
+/// `cells`, for every parameter.
 Coverage coverage_of(const Calibrated& calibrated, const laboratory::Truth& truth,
                      const std::vector<std::string>& cells, CalibrationTable& intervals) {
   const material::ModulusVector theta = to_vector(truth.modulus);
@@ -83,7 +84,7 @@ Coverage coverage_of(const Calibrated& calibrated, const laboratory::Truth& trut
 
 /// Share of held-out designs whose measured T lies within the 90 % interval that the members' spread and the floor
 /// give.
-double inside_90(const std::vector<std::vector<sysid::Prediction>>& members, const Case& study_case,
+double inside_90(const std::vector<std::vector<sysid::Prediction>>& members, const StudyCase& study_case,
                  const Calibrated& calibrated, const sysid::DiscretisationFloor& floor) {
   const std::vector<sysid::Prediction> mean = sysid::mean_prediction(members);
   const sysid::GoodnessOfFit& fit = calibrated.toughness_fit;
@@ -115,7 +116,7 @@ sysid::DiscretisationFloor floor_at(const std::string& fidelity) {
                                           tester::fidelity_from_string(fidelity).value());
 }
 
-Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& settings, const Options& options,
+Calibrated calibrate(const StudyCase& study_case, const sysid::CalibrationSettings& settings, const Options& options,
                      sysid::LocalSimulator& simulator, const std::function<void()>& may_go_on) {
   const auto progress = [&](double, std::string_view) { may_go_on(); };
   if (options.begin_at.empty()) return sysid::run_calibration(study_case.fitted, settings, simulator, progress);
@@ -127,10 +128,11 @@ Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& s
 constexpr int kRound = 8, kMostFitted = 42;  // designs of a round; those that the study has
 
 /// The eight designs that the next round of the growing set brings (Table 3.5), to be predicted before they are fitted.
-Case next_round(const Case& now, std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
+StudyCase next_round(const StudyCase& now, std::uint64_t seed, const Options& options,
+                     const std::function<void()>& may_go_on) {
   Options later = options;
   later.fitted += kRound;
-  Case next = measured_case(seed, later, may_go_on);
+  StudyCase next = measured_case(seed, later, may_go_on);
   const auto is_known = [&](const measurement::Replicates& each) {
     return std::any_of(now.fitted.begin(), now.fitted.end(),
                        [&](const measurement::Replicates& known) { return known.design.name() == each.design.name(); });
@@ -146,12 +148,13 @@ struct Tables {
 };
 
 /// Errors of the first of `sets` and of the mean of all on the next round's designs, as a row behind `cells`.
-void add_next_round(std::vector<std::string> cells, const Case& next, const std::vector<material::ParameterSet>& sets,
-                    sysid::LocalSimulator& simulator, CalibrationTable& table, const std::function<void()>& may_go_on) {
+void add_next_round(std::vector<std::string> cells, const StudyCase& next,
+                    const std::vector<material::ParameterSet>& sets, sysid::LocalSimulator& simulator,
+                    CalibrationTable& table, const std::function<void()>& may_go_on) {
   const auto predictions = sysid::predict(sets, next.held_out, simulator, may_go_on);
   const PredictionErrors first = sysid::prediction_errors(next.held_out, predictions.front());
   const PredictionErrors mean = sysid::prediction_errors(next.held_out, sysid::mean_prediction(predictions));
-  const Floor floor = floor_of(next, simulator, may_go_on);
+  const ErrorFloor floor = floor_of(next, simulator, may_go_on);
   cells.push_back(std::to_string(next.held_out.size()));
   append(cells, {first.modulus_mean, first.toughness_mean, mean.toughness_mean, baselines_of(next).toughness_line,
                  floor.toughness});
@@ -171,7 +174,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       std::to_string(options.budget)};
   const bool wants_next = options.fitted < kMostFitted && !tables.next_round.has(cells);
   if (tables.held_out.has(cells) && !wants_next) return;
-  const Case study_case = measured_case(seed, options, may_go_on);
+  const StudyCase study_case = measured_case(seed, options, may_go_on);
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
   settings.start = material::default_parameters();
@@ -195,7 +198,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   predictions.erase(predictions.begin());
   const PredictionErrors mean = sysid::prediction_errors(study_case.held_out, sysid::mean_prediction(predictions));
   const Baselines baselines = baselines_of(study_case);
-  const Floor floor = floor_of(study_case, simulator, may_go_on);
+  const ErrorFloor floor = floor_of(study_case, simulator, may_go_on);
   const Coverage coverage = coverage_of(calibrated, study_case.truth, cells, tables.intervals);
   cells.push_back(std::to_string(calibrated.simulations));
   append(cells, {calibrated.modulus_objective_after,
@@ -245,7 +248,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
 void measure_laboratories(const Options& options) {
   const auto may_go_on = deadline(options.minutes);
   for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
-    const Case study_case = measured_case(static_cast<std::uint64_t>(seed), options, may_go_on);
+    const StudyCase study_case = measured_case(static_cast<std::uint64_t>(seed), options, may_go_on);
     fmt::print("seed {}: {} designs to fit, {} to predict\n", seed, study_case.fitted.size(),
                study_case.held_out.size());
   }

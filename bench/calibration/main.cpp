@@ -1,6 +1,6 @@
 // The study "System identification that predicts what it has not seen" (docs/studies/calibration). Every command may be
-// interrupted and goes on where it stopped: simulations are kept in logs/calibration-study, results are rows that are
-// not computed twice.
+// interrupted and goes on where it stopped: simulations are kept in the folder --work, results are rows in the folder
+// --out that are not computed twice.
 
 #include <fmt/format.h>
 

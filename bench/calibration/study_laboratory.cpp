@@ -24,8 +24,8 @@ Experiment experiment_of(const laboratory::Truth& truth, const pattern::Design& 
   return {.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
 }
 
-/// Scatter and the machine come after the response, so that they are no part of the key. The version keeps laboratories
-/// of different releases apart: geometry and loading are shared with the testers.
+/// Without scatter and machine, which act on the response. With the kernel's version, since geometry and loading are
+/// shared with the testers.
 std::string key_of(const laboratory::Truth& truth, const Experiment& experiment) {
   laboratory::Truth response_only = truth;
   response_only.replicates = 1;
@@ -35,15 +35,15 @@ std::string key_of(const laboratory::Truth& truth, const Experiment& experiment)
 }
 
 sysid::Prediction simulated(const laboratory::Truth& truth, const Experiment& experiment) {
-  sysid::Prediction answer;
+  sysid::Prediction prediction;
   const auto response = laboratory::respond(truth, experiment);
-  if (!response) return answer;
-  if (experiment.test == TestKind::modulus) answer.modulus_pa = response->modulus_pa;
+  if (!response) return prediction;
+  if (experiment.test == TestKind::modulus) prediction.modulus_pa = response->modulus_pa;
   if (experiment.test == TestKind::toughness) {
-    answer.toughness_pa = tester::area_under(response->curve);
-    answer.curve = response->curve;
+    prediction.toughness_pa = tester::area_under(response->curve);
+    prediction.curve = response->curve;
   }
-  return answer;
+  return prediction;
 }
 
 }  // namespace
@@ -62,20 +62,20 @@ std::vector<measurement::SpecimenRecord> measure(const laboratory::Truth& truth,
                                                  const std::vector<pattern::Design>& designs,
                                                  const std::filesystem::path& store_file, const MayGoOn& may_go_on) {
   sysid::PredictionStore store(store_file);
-  std::vector<Experiment> unknown;
+  std::vector<Experiment> missing;
   for (const pattern::Design& design : designs) {
     for (const TestKind test : kTests) {
       const Experiment experiment = experiment_of(truth, design, test);
-      if (store.find(key_of(truth, experiment)) == nullptr) unknown.push_back(experiment);
+      if (store.find(key_of(truth, experiment)) == nullptr) missing.push_back(experiment);
     }
   }
   std::mutex one_at_a_time;
-  parallel_for(static_cast<int>(unknown.size()), [&](int i) {
+  parallel_for(static_cast<int>(missing.size()), [&](int i) {
     may_go_on();
-    const Experiment& experiment = unknown[i];
-    const sysid::Prediction answer = simulated(truth, experiment);
+    const Experiment& experiment = missing[i];
+    const sysid::Prediction prediction = simulated(truth, experiment);
     const std::lock_guard lock(one_at_a_time);
-    store.put(key_of(truth, experiment), answer);
+    store.put(key_of(truth, experiment), prediction);
   });
   std::vector<measurement::SpecimenRecord> records;
   for (const pattern::Design& design : designs) {

@@ -17,7 +17,8 @@ laboratory::Truth study_truth(std::uint64_t seed, tester::Fidelity fidelity);
 /// Called between two simulations; throws to stop.
 using MayGoOn = std::function<void()>;
 
-/// All replicates of both tests of `designs`. Responses are looked for in `store`, and added to it.
+/// All replicates of both tests of `designs`. Responses are read from `store` where it has them, and added to
+/// it.
 std::vector<measurement::SpecimenRecord> measure(const laboratory::Truth& truth,
                                                  const std::vector<pattern::Design>& designs,
                                                  const std::filesystem::path& store, const MayGoOn& may_go_on);

@@ -1,4 +1,5 @@
 #pragma once
+// Tables of results.
 
 #include <filesystem>
 #include <string>
@@ -6,7 +7,7 @@
 
 namespace nacre::calibration_study {
 
-/// A CSV file of results whose first columns name a case. Rows are added one by one; a case that is there is not
+/// A CSV file of results whose first columns are the key of a row. Rows are added one by one; what has a row is not
 /// computed again.
 class CalibrationTable {
  public:

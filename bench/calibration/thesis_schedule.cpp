@@ -1,4 +1,5 @@
-// Bayesian optimisation as the thesis runs it: five random points, then 200 batches of three.
+// Part of the calibration study (commands.hpp): Bayesian optimisation as in the thesis, five random points, then 200
+// batches of three.
 
 #include <fmt/format.h>
 
@@ -7,6 +8,10 @@
 #include "case.hpp"
 #include "material/ranges.hpp"
 #include "optimize/batch_optimizer.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/objective.hpp"
+#include "sysid/offline.hpp"
+#include "sysid/weights.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {
@@ -25,20 +30,20 @@ material::ParameterSet parameters_at(const optimize::Point& point) {
 
 /// What was evaluated before an interruption, one line an evaluation: the value, then the point.
 std::vector<optimize::Evaluation> read_log(const std::string& file) {
-  std::vector<optimize::Evaluation> told;
+  std::vector<optimize::Evaluation> evaluated;
   std::ifstream lines(file);
   double value = 0.0;
   while (lines >> value) {
     optimize::Point point(material::kToughnessParameterCount);
     for (double& coordinate : point) lines >> coordinate;
-    if (lines) told.push_back({point, value});
+    if (lines) evaluated.push_back({point, value});
   }
-  return told;
+  return evaluated;
 }
 
 /// What the schedule found, in sample and on the designs that were not fitted.
 void add_result(const Options& options, std::uint64_t seed, const optimize::Evaluation& best, int evaluations,
-                const Case& study_case, const std::function<void()>& may_go_on) {
+                const StudyCase& study_case, const std::function<void()>& may_go_on) {
   CalibrationTable table(options.out + "/thesis.csv",
                          {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
   std::vector<std::string> cells = {options.fidelity, std::to_string(seed), std::to_string(options.fitted),
@@ -55,12 +60,12 @@ void add_result(const Options& options, std::uint64_t seed, const optimize::Eval
 }
 
 void run_schedule(const Options& options, std::uint64_t seed, const std::function<void()>& may_go_on) {
-  const Case study_case = measured_case(seed, options, may_go_on);
+  const StudyCase study_case = measured_case(seed, options, may_go_on);
   const std::vector<double> weights = sysid::sample_weights(study_case.fitted);
   const std::string log = fmt::format("{}/thesis-{}-{}-{}.txt", options.work, options.fidelity, options.fitted, seed);
-  std::vector<optimize::Evaluation> told = read_log(log);
-  const int spare = static_cast<int>(told.size()) % kBatch;  // of a batch that was not finished
-  told.resize(told.size() - static_cast<std::size_t>(spare));
+  std::vector<optimize::Evaluation> evaluated = read_log(log);
+  const int unfinished = static_cast<int>(evaluated.size()) % kBatch;  // of the last batch
+  evaluated.resize(evaluated.size() - static_cast<std::size_t>(unfinished));
   optimize::BatchOptimizerSettings settings;
   settings.dimension = material::kToughnessParameterCount;
   settings.budget = 6 + kBatches * kBatch;  // five points do not fill two batches of three: six
@@ -68,7 +73,7 @@ void run_schedule(const Options& options, std::uint64_t seed, const std::functio
   settings.seed = seed;
   settings.first_points = kFirstPoints;
   const auto optimizer = optimize::make_optimizer(optimize::Algorithm::bayesian, settings);
-  optimizer->resume(told);
+  optimizer->resume(evaluated);
   const auto fidelity = tester::fidelity_from_string(options.fidelity).value();
   for (std::vector<optimize::Point> points = optimizer->ask(); !points.empty(); points = optimizer->ask()) {
     std::vector<sysid::WantedEvaluation> wanted;

@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "base/statistics.hpp"
+#include "report/standalone.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::demo_games {

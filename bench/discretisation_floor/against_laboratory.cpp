@@ -1,5 +1,5 @@
-// What the virtual laboratory's numerics leave against the testers at the same truth, without scatter and without
-// effects: the floor of every error budget. Results: docs/studies/discretisation-floor.md.
+// Residuals between virtual laboratory and testers at the same truth, without scatter and without effects: the
+// discretisation floor of every error budget. Results: docs/studies/discretisation-floor.md.
 
 #include <chrono>
 #include <cmath>
@@ -40,13 +40,14 @@ struct Options {
 /// A number per design; nothing where a simulation failed.
 using Values = std::vector<std::optional<double>>;
 
-template <class Ask>
-Values ask_all(const std::vector<pattern::Pattern>& patterns, int threads, const Ask& ask) {
+/// `value_of` of every pattern, in parallel.
+template <class ValueOf>
+Values values_of(const std::vector<pattern::Pattern>& patterns, int threads, const ValueOf& value_of) {
   Values values(patterns.size());
   parallel_for(
       static_cast<int>(patterns.size()),
       [&](int i) {
-        const Result<double> value = ask(patterns[i]);
+        const Result<double> value = value_of(patterns[i]);
         if (value)
           values[i] = *value;
         else
@@ -75,7 +76,7 @@ std::vector<double> minus(const std::vector<double>& a, const std::vector<double
 
 Values laboratory_values(const Truth& truth, const std::vector<pattern::Pattern>& patterns, tester::TestKind test,
                          tester::Fidelity fidelity, int threads) {
-  return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
+  return values_of(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
     const auto response =
         laboratory::respond(truth, {.design = pattern, .test = test, .conditions = {}, .fidelity = fidelity});
     if (!response) return tl::unexpected(response.error());
@@ -87,7 +88,7 @@ Values tester_moduli(const material::ModulusParameters& theta, const std::vector
                      tester::Fidelity fidelity, int threads) {
   material::ParameterSet parameters = material::default_parameters();
   parameters.modulus = theta;
-  return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
+  return values_of(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
     const auto result =
         tester::test_modulus({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = fidelity});
     if (!result) return tl::unexpected(result.error());
@@ -99,7 +100,7 @@ Values tester_toughnesses(const material::ToughnessParameters& eta, const std::v
                           tester::Fidelity fidelity, int threads) {
   material::ParameterSet parameters = material::default_parameters();
   parameters.toughness = eta;
-  return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
+  return values_of(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
     const auto result =
         tester::test_toughness({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = fidelity});
     if (!result) return tl::unexpected(result.error());
@@ -115,7 +116,7 @@ std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>
   const auto [target, at_truth] = paired_logs(laboratory, testers);
   if (target.size() != patterns.size()) throw InputError("a modulus simulation failed, see above");
   const std::vector<double> raw = minus(target, at_truth);
-  const Refit refit = refit_moduli(target, truth.modulus, [&](const material::ModulusParameters& theta) {
+  const ModulusRefit refit = refit_moduli(target, truth.modulus, [&](const material::ModulusParameters& theta) {
     std::vector<double> logs;
     for (const auto& value : tester_moduli(theta, patterns, fidelity, threads)) logs.push_back(std::log(value.value()));
     return logs;
@@ -159,12 +160,13 @@ void run(const Options& options) {
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(options.layouts, random);
   std::string table = "fidelity,test,pattern,rigid_fraction,laboratory_pa,tester_pa,log_residual\n";
   std::string text = fmt::format(
-      "# What remains between virtual laboratory and testers at the same truth, without scatter and effects; natural\n"
+      "# Residuals between virtual laboratory and testers at the same truth, without scatter and effects; natural\n"
       "# logarithms. Method and figures: docs/studies/discretisation-floor.md.\n"
-      "command = \"discretisation_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
+      "command = \"laboratory_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
       options.layouts, options.toughness_layouts, options.fidelity, options.seed, options.seed);
   const auto count = std::min(patterns.size(), static_cast<std::size_t>(options.toughness_layouts));
-  const std::vector<pattern::Pattern> torn(patterns.begin(), patterns.begin() + static_cast<std::ptrdiff_t>(count));
+  const std::vector<pattern::Pattern> fractured(patterns.begin(),
+                                                patterns.begin() + static_cast<std::ptrdiff_t>(count));
   std::string full_moduli;
   for (const tester::Fidelity fidelity : {tester::Fidelity::full, tester::Fidelity::preview, tester::Fidelity::tiny}) {
     text += fmt::format("\n[{}]\n", tester::to_string(fidelity));
@@ -172,8 +174,8 @@ void run(const Options& options) {
     const bool same_as_full = fidelity == tester::Fidelity::preview;
     if (!same_as_full) full_moduli = study_moduli(truth, patterns, fidelity, options.threads, table);
     text += full_moduli;
-    if (tester::to_string(fidelity) != options.fidelity || torn.empty()) continue;
-    text += study_toughness(truth, torn, fidelity, options.threads, table);
+    if (tester::to_string(fidelity) != options.fidelity || fractured.empty()) continue;
+    text += study_toughness(truth, fractured, fidelity, options.threads, table);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{}\n# {:.0f} s\n", text, seconds);
@@ -184,10 +186,10 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Numerics floor: the virtual laboratory against the testers at the same truth"};
+  CLI::App app{"Discretisation floor: the virtual laboratory against the testers at the same truth"};
   Options options;
   app.add_option("--layouts", options.layouts, "Random layouts, stratified 50-85 %")->check(CLI::Range(10, 1000));
-  app.add_option("--toughness-layouts", options.toughness_layouts, "How many of them are also torn; 0: none")
+  app.add_option("--toughness-layouts", options.toughness_layouts, "How many of them have a fracture test too; 0: none")
       ->check(CLI::Range(0, 1000));
   app.add_option("--fidelity", options.fidelity, "Of the toughness specimens")
       ->check(CLI::IsMember({"tiny", "preview", "full"}));

@@ -8,11 +8,11 @@
 namespace nacre::discretisation_floor {
 namespace {
 
-constexpr int kConstants = 6;  // gamma is not felt
+constexpr int kConstants = 6;  // all but gamma, which a static test does not use
 constexpr int kIterations = 8;
 
-/// Constant `i` moved by `step`: E multiplied by e^step, nu shifted.
-material::ModulusParameters moved(const material::ModulusParameters& parameters, int i, double step) {
+/// Parameters with constant `i` changed by `step`: E multiplied by e^step, step added to nu.
+material::ModulusParameters stepped(const material::ModulusParameters& parameters, int i, double step) {
   material::ModulusVector vector = material::to_vector(parameters);
   double& value = vector[i];
   value = i < 3 ? value * std::exp(step) : std::clamp(value + step, 0.01, 0.499);
@@ -38,16 +38,17 @@ std::vector<std::vector<double>> sensitivities(const material::ModulusParameters
   std::vector<std::vector<double>> columns;
   for (int i = 0; i < kConstants; ++i) {
     const double step = i < 3 ? 1e-3 : -1e-3;
-    std::vector<double> column = difference(predict(moved(parameters, i, step)), at_parameters);
+    std::vector<double> column = difference(predict(stepped(parameters, i, step)), at_parameters);
     for (double& value : column) value /= step;
     columns.push_back(std::move(column));
   }
   return columns;
 }
 
-Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
-                   const LogModuli& predict) {
-  Refit refit{.parameters = start, .residual = difference(target_log_e, predict(start)), .free_parameters = kConstants};
+ModulusRefit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
+                          const LogModuli& predict) {
+  ModulusRefit refit{
+      .parameters = start, .residual = difference(target_log_e, predict(start)), .free_parameters = kConstants};
   const auto rows = static_cast<Eigen::Index>(target_log_e.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const auto columns = sensitivities(refit.parameters, predict, difference(target_log_e, refit.residual));
@@ -61,7 +62,7 @@ Refit refit_moduli(const std::vector<double>& target_log_e, const material::Modu
     bool improved = false;
     for (double share = 1.0; share > 0.05 && !improved; share /= 2.0) {
       material::ModulusParameters candidate = refit.parameters;
-      for (int i = 0; i < kConstants; ++i) candidate = moved(candidate, i, share * step(i));
+      for (int i = 0; i < kConstants; ++i) candidate = stepped(candidate, i, share * step(i));
       std::vector<double> left = difference(target_log_e, predict(candidate));
       if (sum_of_squares(left) >= before * (1.0 - 1e-6)) continue;
       refit.parameters = candidate;

@@ -1,5 +1,5 @@
 #pragma once
-// What a calibrated tester can take over of a difference in log E, and what it must leave.
+// Least squares of log E over the six elastic constants: the residual that a calibrated tester cannot fit.
 
 #include <functional>
 #include <vector>
@@ -11,16 +11,16 @@ namespace nacre::discretisation_floor {
 /// log E of every design at these parameters.
 using LogModuli = std::function<std::vector<double>(const material::ModulusParameters&)>;
 
-struct Refit {
+struct ModulusRefit {
   material::ModulusParameters parameters;
   std::vector<double> residual;  ///< target - prediction at `parameters`
   int free_parameters = 0;       ///< that the designs determine
 };
 
-/// Gauss-Newton on log E over the six constants that a static tester feels (E in log, nu as it is, held inside [0.01,
+/// Gauss-Newton on log E over the six constants of a static tester (E in log, nu as it is, held inside [0.01,
 /// 0.499]), from `start`; steps that do not lower the sum of squares are halved.
-Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
-                   const LogModuli& predict);
+ModulusRefit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
+                          const LogModuli& predict);
 
 /// Derivatives of log E by the six constants at `parameters`, one column each (rows: designs).
 std::vector<std::vector<double>> sensitivities(const material::ModulusParameters& parameters, const LogModuli& predict,

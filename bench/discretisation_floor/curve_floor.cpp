@@ -1,6 +1,6 @@
-// What the elements of the fracture tester leave of the features that a diagnosis compares
-// (lib/diagnosis/features.hpp): elements of size h against h/2, the layouts and parameter sets of discretisation_floor.
-// Finished tests are kept in a table. Result: [FIDELITY.curve] of data/discretisation_floor.toml,
+// Changes of the features that a diagnosis compares (lib/diagnosis/features.hpp) when the elements of the fracture
+// tester are halved: elements of size h against h/2, the layouts and parameter sets of discretisation_floor. Finished
+// tests are kept in a table. Result: [FIDELITY.curve] of data/discretisation_floor.toml,
 // docs/studies/discretisation-floor.md.
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ using namespace nacre;
 using namespace nacre::discretisation_floor;
 using diagnosis::Feature;
 
-constexpr std::size_t kLeastPairs = 4;  // of a parameter set, to say anything of it
+constexpr std::size_t kLeastPairs = 4;  // of a parameter set that is used
 constexpr double kMiddleFraction = 0.675, kFractionUnit = 0.1;
 
 /// The features of a fracture test, in their order.
@@ -30,10 +30,10 @@ std::vector<Feature> compared() {
   return features;
 }
 
-/// Not a number where a test failed or does not show a feature: the table keeps numbers only, so 1e9 stands for it.
+/// Stands for the value of a test that failed or has not this feature: the table keeps numbers only.
 constexpr double kMissing = 1e9;
 
-std::vector<study::Wanted> wanted_curves(const Plan& plan) {
+std::vector<study::Wanted> wanted_curves(const FloorPlan& plan) {
   std::vector<study::Wanted> wanted;
   for (std::size_t pass = 0; pass < plan.sets.size(); ++pass)
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
@@ -54,44 +54,45 @@ std::vector<study::Wanted> wanted_curves(const Plan& plan) {
   return wanted;
 }
 
-struct Pair {
+/// One layout with one parameter set on both meshes.
+struct MeshPair {
   double z = 0.0;
   Eigen::VectorXd change;  ///< feature(h/2) - feature(h)
 };
 
-/// Covariance of changes: mean over parameter sets of what all layouts share, of what goes with rigid fraction, and
-/// what is left per layout.
+/// Covariance of changes: the part that all layouts share and the part linear in rigid fraction (means over parameter
+/// sets), and the residual of a layout.
 struct CurveFloor {
   Eigen::MatrixXd shared, rigid, layout;
   int pairs = 0, sets = 0;
 };
 
-CurveFloor curve_floor(const Plan& plan, const study::StudyTable& table) {
+CurveFloor curve_floor(const FloorPlan& plan, const study::StudyTable& table) {
   const auto count = static_cast<Eigen::Index>(compared().size());
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(count, count);
   CurveFloor floor{none, none, none};
   double freedom = 0.0;
   for (std::size_t s = 0; s < plan.sets.size(); ++s) {
-    std::vector<Pair> pairs;
+    std::vector<MeshPair> pairs;
     for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
       const auto coarse = table.find(toughness_key(plan, i, s, 1)), fine = table.find(toughness_key(plan, i, s, 2));
       if (!coarse || !fine) continue;
-      Pair pair{(plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit, Eigen::VectorXd(count)};
+      MeshPair pair{(plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit, Eigen::VectorXd(count)};
       for (Eigen::Index f = 0; f < count; ++f) pair.change[f] = (*fine)[f] - (*coarse)[f];
       if (pair.change.cwiseAbs().maxCoeff() < 0.5 * kMissing && (*fine)[0] < kMissing) pairs.push_back(pair);
     }
     if (pairs.size() < kLeastPairs) continue;
     double n = 0.0, z1 = 0.0, z2 = 0.0;
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count), sum_z = sum;
-    for (const Pair& pair : pairs)
+    for (const MeshPair& pair : pairs)
       n += 1.0, z1 += pair.z, z2 += pair.z * pair.z, sum += pair.change, sum_z += pair.z * pair.change;
     const double determinant = n * z2 - z1 * z1;
     const Eigen::VectorXd middle = (z2 * sum - z1 * sum_z) / determinant, slope = (n * sum_z - z1 * sum) / determinant;
     floor.shared += middle * middle.transpose();
     floor.rigid += slope * slope.transpose();
-    for (const Pair& pair : pairs) {
-      const Eigen::VectorXd rest = pair.change - middle - pair.z * slope;
-      floor.layout += rest * rest.transpose();
+    for (const MeshPair& pair : pairs) {
+      const Eigen::VectorXd residual = pair.change - middle - pair.z * slope;
+      floor.layout += residual * residual.transpose();
     }
     freedom += n - 2.0;
     floor.pairs += static_cast<int>(pairs.size());
@@ -114,7 +115,7 @@ std::string text_of(const Eigen::MatrixXd& matrix) {
 }
 
 void run(const FloorOptions& options) {
-  const Plan plan = plan_of(options);
+  const FloorPlan plan = plan_of(options);
   std::vector<std::string> columns;
   for (const Feature feature : compared()) columns.emplace_back(to_string(feature));
   study::StudyTable table(options.table.table, columns);
@@ -133,7 +134,7 @@ void run(const FloorOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Numerics floor of the features of a curve: elements of size h against h/2"};
+  CLI::App app{"Discretisation floor of the features of a curve: elements of size h against h/2"};
   FloorOptions options{.table = {.table = "curve_floor.csv"}};
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);

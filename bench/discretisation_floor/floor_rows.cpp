@@ -46,7 +46,7 @@ void add_options(CLI::App& app, FloorOptions& options) {
   study::add_table_options(app, options.table, "layouts and parameter sets");
 }
 
-Plan plan_of(const FloorOptions& options) {
+FloorPlan plan_of(const FloorOptions& options) {
   return {.fidelity = *tester::fidelity_from_string(options.fidelity),
           .seed = options.table.seed,
           .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
@@ -82,7 +82,7 @@ std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_
   return sets;
 }
 
-double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
+double modulus_pa(const FloorPlan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
                   int refinement) {
   tester::Simulation simulation{layout, material::default_parameters(), {}, plan.fidelity};
   simulation.parameters.modulus = theta;
@@ -91,12 +91,12 @@ double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const materi
   return result->modulus_pa;
 }
 
-std::string toughness_key(const Plan& plan, std::size_t layout, std::size_t set, int refinement) {
+std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement) {
   return fmt::format("{} {} {} {} {}", tester::to_string(plan.fidelity), plan.seed, plan.layouts[layout].key(), set,
                      refinement);
 }
 
-std::vector<study::Wanted> wanted_fracture_tests(const Plan& plan) {
+std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan) {
   std::vector<study::Wanted> wanted;
   for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// The simulations behind the numerics floor: every layout with every parameter set on elements of size h, h/2, ...
+// The simulations of the discretisation floor: every layout with every parameter set on elements of size h, h/2, ...
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace nacre::discretisation_floor {
 
-/// What is compared: layouts x parameter sets.
-struct Plan {
+/// Layouts x parameter sets that are compared.
+struct FloorPlan {
   tester::Fidelity fidelity = tester::Fidelity::preview;
   std::uint64_t seed = 1;
   std::vector<pattern::Pattern> layouts;
@@ -21,14 +21,14 @@ struct Plan {
   int sets_per_layout = 5;  ///< of a fracture test, in turn; every layout with all of them: as many as sets
 };
 
-/// What a program is told of its plan and its table.
+/// Options of a program: its plan and its table.
 struct FloorOptions {
   int layouts = 48, sets = 5;
   std::string fidelity = "preview", gamut = "bench/discretisation_floor/gamut.csv";
   study::TableOptions table;
 };
 void add_options(CLI::App& app, FloorOptions& options);
-Plan plan_of(const FloorOptions& options);
+FloorPlan plan_of(const FloorOptions& options);
 
 /// Half of the layouts random, stratified over 50-85 % rigid; half the best ones (by rank) of a gamut.
 std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed);
@@ -37,14 +37,14 @@ std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_
 std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_t seed);
 
 /// E on elements of size h / refinement, Pa. Throws InputError when a simulation fails.
-double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
+double modulus_pa(const FloorPlan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
                   int refinement);
 
 inline const std::vector<std::string> kToughnessColumns = {"toughness_pa", "peak_stress_pa", "failure_strain"};
-std::string toughness_key(const Plan& plan, std::size_t layout, std::size_t set, int refinement);
+std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement);
 
 /// Fracture tests at h and h/2, thresholds times 2 and damping times 4 (the filter's viscosity is gamma h^2): first
 /// every layout with one parameter set, in turn, then with the next one. A failed test gives zeros.
-std::vector<study::Wanted> wanted_fracture_tests(const Plan& plan);
+std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan);
 
 }  // namespace nacre::discretisation_floor

@@ -1,6 +1,6 @@
-// What the testers' elements leave of an error: features on elements of size h against h/2 at shared fracture energy,
-// over random and front-like layouts and several parameter sets, after a base refit. Finished fracture tests are kept
-// in a table, so that the study goes on where it stopped. Results: data/discretisation_floor.toml,
+// Discretisation floor of the testers: features on elements of size h against h/2 at the same fracture energy, over
+// random and front-like layouts and several parameter sets, after a base refit. Finished fracture tests are kept in a
+// table, so that the study goes on where it stopped. Results: data/discretisation_floor.toml,
 // docs/studies/discretisation-floor.md.
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ struct Options : FloorOptions {
 };
 
 void run(const Options& options) {
-  Plan plan = plan_of(options);
+  FloorPlan plan = plan_of(options);
   plan.sets_per_layout = std::min(options.sets, options.sets_per_layout);
   study::StudyTable table(options.table.table, kToughnessColumns);
   const int missing = study::fill(table, wanted_fracture_tests(plan), options.table.seconds, options.table.threads);
@@ -37,7 +37,7 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Numerics floor: the testers on elements of size h against h/2"};
+  CLI::App app{"Discretisation floor: the testers on elements of size h against h/2"};
   Options options;
   options.table.table = "discretisation_floor.csv";
   add_options(app, options);

@@ -11,9 +11,9 @@
 namespace nacre::discretisation_floor {
 namespace {
 
-constexpr double kManyRigid = 0.75;  // proposals lie above it
+constexpr double kManyRigid = 0.75;  // most proposals have more
 
-std::vector<double> log_moduli(const Plan& plan, const material::ModulusParameters& theta, int refinement,
+std::vector<double> log_moduli(const FloorPlan& plan, const material::ModulusParameters& theta, int refinement,
                                int threads) {
   std::vector<double> logs(plan.layouts.size());
   parallel_for(
@@ -58,10 +58,10 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 
 }  // namespace
 
-ModulusFloor modulus_floor(const Plan& plan, int threads) {
+ModulusFloor modulus_floor(const FloorPlan& plan, int threads) {
   ModulusFloor floor;
-  std::vector<double> changes, rescaled, left, left_of[2], first_changes, second_changes;
-  int lost = 0;
+  std::vector<double> changes, rescaled, residuals, residuals_of[2], first_changes, second_changes;
+  int free_parameters = 0;
   for (const material::ParameterSet& set : plan.sets) {
     const std::vector<double> coarse = log_moduli(plan, set.modulus, 1, threads),
                               half = log_moduli(plan, set.modulus, 2, threads),
@@ -71,19 +71,20 @@ ModulusFloor modulus_floor(const Plan& plan, int threads) {
     append(rescaled, centred(change));
     append(first_changes, change);
     append(second_changes, minus(quarter, half));
-    const Refit refit = refit_moduli(half, set.modulus, [&](const material::ModulusParameters& theta) {
+    const ModulusRefit refit = refit_moduli(half, set.modulus, [&](const material::ModulusParameters& theta) {
       return log_moduli(plan, theta, 1, threads);
     });
-    lost += refit.free_parameters;
-    append(left, refit.residual);
+    free_parameters += refit.free_parameters;
+    append(residuals, refit.residual);
     floor.residuals.push_back(refit.residual);
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
-      left_of[plan.layouts[i].rigid_fraction() >= kManyRigid ? 1 : 0].push_back(refit.residual[i]);
+      residuals_of[plan.layouts[i].rigid_fraction() >= kManyRigid ? 1 : 0].push_back(refit.residual[i]);
   }
   floor.mean = mean(changes);
   floor.sd_rescaled = root_mean_square(rescaled, static_cast<int>(plan.sets.size()));
-  floor.sd = root_mean_square(left, lost);
-  for (std::size_t k = 0; k < 2; ++k) floor.at_sd[k] = left_of[k].empty() ? 0.0 : root_mean_square(left_of[k]);
+  floor.sd = root_mean_square(residuals, free_parameters);
+  for (std::size_t k = 0; k < 2; ++k)
+    floor.at_sd[k] = residuals_of[k].empty() ? 0.0 : root_mean_square(residuals_of[k]);
   const double ratio = dot(first_changes, second_changes) / dot(first_changes, first_changes);
   floor.observed_order = -std::log2(ratio);
   floor.mesh_amplitude = 1.0 / (1.0 - ratio);
@@ -93,7 +94,7 @@ ModulusFloor modulus_floor(const Plan& plan, int threads) {
   return floor;
 }
 
-std::string to_toml(const ModulusFloor& floor, const Plan& plan) {
+std::string to_toml(const ModulusFloor& floor, const FloorPlan& plan) {
   return fmt::format(
       "modulus_layouts = {}\nmodulus_parameter_sets = {}\n"
       "log_modulus_mean = {:.4f}  # log E(h/2) - log E(h)\n"

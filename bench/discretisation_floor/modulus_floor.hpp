@@ -1,4 +1,5 @@
 #pragma once
+// log E(h/2) - log E(h) over layouts and parameter sets, before and after a refit of the elastic constants.
 
 #include <string>
 
@@ -6,7 +7,7 @@
 
 namespace nacre::discretisation_floor {
 
-/// What halving the elements does to log E, over all layouts and parameter sets of a plan.
+/// Change of log E when the elements are halved, over all layouts and parameter sets of a plan.
 struct ModulusFloor {
   double mean = 0.0;         ///< of log E(h/2) - log E(h)
   double sd_rescaled = 0.0;  ///< after one common factor per parameter set
@@ -20,9 +21,9 @@ struct ModulusFloor {
 };
 
 /// About (8 x 8 + 1 + 16) x layouts x parameter sets modulus tests of the size at h.
-ModulusFloor modulus_floor(const Plan& plan, int threads);
+ModulusFloor modulus_floor(const FloorPlan& plan, int threads);
 
 /// Keys of data/discretisation_floor.toml.
-std::string to_toml(const ModulusFloor& floor, const Plan& plan);
+std::string to_toml(const ModulusFloor& floor, const FloorPlan& plan);
 
 }  // namespace nacre::discretisation_floor

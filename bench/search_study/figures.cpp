@@ -11,6 +11,7 @@
 #include "explore/gamut_csv.hpp"
 #include "growth.hpp"
 #include "predicted.hpp"
+#include "report/standalone.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::search_study {

@@ -9,7 +9,7 @@
 
 namespace nacre::study {
 
-/// What every study with a table of finished simulations is told.
+/// Options of every study with a table of finished simulations.
 struct TableOptions {
   std::string table;
   std::uint64_t seed = 1;

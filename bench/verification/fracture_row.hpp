@@ -1,5 +1,5 @@
 #pragma once
-// What the verification studies keep of one fracture test.
+// One fracture test in the tables of the verification studies, and their patterns.
 
 #include <cmath>
 #include <cstdio>

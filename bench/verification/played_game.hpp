@@ -1,5 +1,5 @@
 #pragma once
-// What a played game said about its designs, from the validation agent's journal.
+// Models, gamuts, proposals and specimens of a played game, from the validation agent's journal.
 
 #include <filesystem>
 #include <map>

@@ -1,5 +1,6 @@
-// What a game would have proposed with and without redraws, from the same gamut of the same model, and what its virtual
-// laboratory says of both. Games are read that were played without. Results: docs/studies/realisations.md.
+// Proposals with T as a mean over realisations against proposals with T of one simulation, from the same gamut of the
+// same model, and what the game's virtual laboratory would measure of both. Reads games that were played without
+// realisations. Results: docs/studies/realisations.md.
 
 #include <cmath>
 #include <map>
@@ -28,23 +29,23 @@ namespace lab = nacre::laboratory;
 struct Options {
   std::vector<std::string> runs;
   int draws = 3, designs = 8, first_round = 1;
-  study::TableOptions table{.table = "redraw_selection.csv"};
+  study::TableOptions table{.table = "realisation_selection.csv"};
 };
 
-/// A round of a game: its model, what was found, and the laboratory that would measure.
-struct Round {
+/// A round of a game: its model, its gamut, and the laboratory that would measure.
+struct StudiedRound {
   std::string place;
   const wire::AdoptedModel* model = nullptr;
   const std::vector<explore::Evaluated>* gamut = nullptr;
   const lab::Truth* truth = nullptr;
 };
 
-class Study {
+class SelectionStudy {
  public:
-  explicit Study(const Options& options) : options_(options), table_(options.table.table, kFractureColumns) {}
+  explicit SelectionStudy(const Options& options) : options_(options), table_(options.table.table, kFractureColumns) {}
 
-  /// The gamut with the toughness of its candidates as means.
-  std::vector<explore::Evaluated> drawn_again(const Round& round) {
+  /// The gamut with the toughness of its candidates as means over realisations.
+  std::vector<explore::Evaluated> averaged_gamut(const StudiedRound& round) {
     wire::SimulateRequest model;
     model.fidelity = round.model->fidelity;
     model.parameters = game::material_side(round.model->parameters);
@@ -52,13 +53,13 @@ class Study {
                                               round.place);
     for (auto requests = realisations.next(model); !requests.empty(); requests = realisations.next(model)) {
       simulate(requests);
-      for (const wire::SimulateRequest& request : requests) realisations.take(request.request_id, answer(request));
+      for (const wire::SimulateRequest& request : requests) realisations.take(request.request_id, response(request));
     }
     return realisations.gamut();
   }
 
-  /// What the laboratory says of a design, without scatter.
-  optimize::Performance measured(const Round& round, const pattern::Pattern& pattern) {
+  /// E and T of a design in the laboratory, without scatter.
+  optimize::Performance measured(const StudiedRound& round, const pattern::Pattern& pattern) {
     const std::string key = fmt::format("{} laboratory {}", round.place, pattern.key());
     if (!table_.find(key)) {
       const auto of = [&](tester::TestKind test) {
@@ -88,7 +89,7 @@ class Study {
     }
     study::fill(table_, wanted, options_.table.seconds, options_.table.threads);
   }
-  std::vector<wire::SimulatedDesign> answer(const wire::SimulateRequest& request) const {
+  std::vector<wire::SimulatedDesign> response(const wire::SimulateRequest& request) const {
     std::vector<wire::SimulatedDesign> results;
     for (const pattern::Design& design : request.designs) {
       wire::SimulatedDesign result;
@@ -110,8 +111,8 @@ struct Outcome {
   std::vector<double> hypervolumes;  ///< of each round's designs, as measured
 };
 
-void add_proposals(Outcome& outcome, Study& study, const Round& round, std::vector<explore::Evaluated> gamut,
-                   int designs) {
+void add_proposals(Outcome& outcome, SelectionStudy& study, const StudiedRound& round,
+                   std::vector<explore::Evaluated> gamut, int designs) {
   std::vector<optimize::Performance> measured;
   for (const select::Selected& each :
        select::select_with_reserve(std::move(gamut), round.model->measured, round.model->benchmark, designs)) {
@@ -130,17 +131,17 @@ void print_row(const std::string& head, const Outcome& outcome) {
 }
 
 void run(const Options& options) {
-  Study study(options);
+  SelectionStudy study(options);
   Outcome one, means;
   for (const std::string& folder : options.runs) {
     const PlayedGame game = read_game(folder);
     const lab::Truth truth = lab::read_laboratory(std::filesystem::path(folder) / "laboratory.truth.toml");
     for (const auto& [number, gamut] : game.gamuts) {
       if (number < options.first_round) continue;
-      const Round round{fmt::format("{}/{}", std::filesystem::path(folder).filename().string(), number),
-                        &game.models.at(number), &gamut, &truth};
+      const StudiedRound round{fmt::format("{}/{}", std::filesystem::path(folder).filename().string(), number),
+                               &game.models.at(number), &gamut, &truth};
       add_proposals(one, study, round, gamut, options.designs);
-      add_proposals(means, study, round, study.drawn_again(round), options.designs);
+      add_proposals(means, study, round, study.averaged_gamut(round), options.designs);
       fmt::print(stderr, "{}: hypervolume of what is proposed {:.3f} by one simulation, {:.3f} by means\n", round.place,
                  one.hypervolumes.back(), means.hypervolumes.back());
     }
@@ -149,18 +150,18 @@ void run(const Options& options) {
       "| T of candidates | designs | error of log T (rms) | (mean) | mean error | hypervolume of a proposal |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- |\n");
   print_row("one simulation", one);
-  print_row(fmt::format("mean of it and {} redraws", options.draws), means);
+  print_row(fmt::format("mean of it and {} realisations", options.draws), means);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"What games would have proposed with and without redraws, and what their laboratories say of it"};
+  CLI::App app{"Proposals of games with and without realisations, and what their laboratories would measure of them"};
   Options options;
   app.add_option("RUN", options.runs, "folders of games played with redraws = 0")
       ->required()
       ->check(CLI::ExistingDirectory);
-  app.add_option("--draws", options.draws, "redraws of a candidate")->check(CLI::Range(1, 100));
+  app.add_option("--draws", options.draws, "realisations of a candidate")->check(CLI::Range(1, 100));
   app.add_option("--designs", options.designs, "designs of a proposal")->check(CLI::Range(1, 100));
   app.add_option("--first-round", options.first_round, "rounds before it are left out")->check(CLI::Range(0, 1000));
   study::add_table_options(app, options.table, "draws");

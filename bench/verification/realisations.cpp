@@ -1,6 +1,5 @@
-// What the toughness of proposed designs gains by being a mean over parameters that are as probable: played games are
-// read, their proposals simulated again, and held against what was measured after them. Results:
-// docs/studies/realisations.md.
+// Error of log T of proposed designs when T is a mean over perturbed parameters: the proposals of played games are
+// simulated again and compared with what was measured of them afterwards. Results: docs/studies/realisations.md.
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +27,11 @@ constexpr double kRelative[] = {0.01, 0.05, 0.1, 0.2, 0.3, 0.4};
 struct Options {
   std::vector<std::string> runs;
   int draws = 12;
-  study::TableOptions table{.table = "redraws.csv"};
+  study::TableOptions table{.table = "realisations.csv"};
 };
 
-/// A design of a proposal that was measured after it.
-struct Proposed {
+/// A design of a proposal that was measured afterwards.
+struct MeasuredProposal {
   std::string place;  ///< run and round
   pattern::Design design;
   tester::Fidelity fidelity = tester::Fidelity::full;
@@ -40,11 +39,11 @@ struct Proposed {
   double measured_log_toughness = 0.0;
 };
 
-/// Round 0 is left out: what it knows of fracture is the base materials.
-std::vector<Proposed> measured_proposals(const std::string& run) {
+/// Without round 0, whose model of fracture rests on the base materials alone.
+std::vector<MeasuredProposal> measured_proposals(const std::string& run) {
   const PlayedGame game = read_game(run);
   const std::vector<measurement::Replicates> measured = game::calibration_set(game.specimens);
-  std::vector<Proposed> all;
+  std::vector<MeasuredProposal> all;
   for (const auto& [round, proposal] : game.proposals) {
     if (round == 0) continue;
     const wire::AdoptedModel& model = game.models.at(round);
@@ -59,13 +58,13 @@ std::vector<Proposed> measured_proposals(const std::string& run) {
   return all;
 }
 
-std::string key_of(const Proposed& proposed, double relative, int draw) {
+std::string key_of(const MeasuredProposal& proposed, double relative, int draw) {
   return fmt::format("{} {} {:g} {}", proposed.place, proposed.design.name(), relative, draw);
 }
 
-std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector<Proposed>& designs) {
+std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector<MeasuredProposal>& designs) {
   std::vector<study::Wanted> wanted;
-  const auto want = [&](const Proposed& proposed, double relative, int draw) {
+  const auto want = [&](const MeasuredProposal& proposed, double relative, int draw) {
     const std::string key = key_of(proposed, relative, draw);
     wanted.push_back(
         {key, [=, seed = options.table.seed] {
@@ -75,7 +74,7 @@ std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector
            return fracture_row(key, tester::test_toughness({proposed.design, parameters, {}, proposed.fidelity}));
          }});
   };
-  for (const Proposed& proposed : designs) {
+  for (const MeasuredProposal& proposed : designs) {
     want(proposed, 0.0, 0);
     for (const double relative : kRelative)
       for (int draw = 0; draw < options.draws; ++draw) want(proposed, relative, draw);
@@ -83,13 +82,13 @@ std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector
   return wanted;
 }
 
-/// Errors of log T: of the mean of the model's own simulation and `draws` of the moved ones, each such group by itself.
-std::vector<double> errors_of(const Options& options, const std::vector<Proposed>& designs,
+/// Errors of log T as the mean of the model's own simulation and `draws` perturbed ones, one error a group of draws.
+std::vector<double> errors_of(const Options& options, const std::vector<MeasuredProposal>& designs,
                               const study::StudyTable& table, double relative, int draws) {
   std::vector<double> errors;
-  for (const Proposed& proposed : designs) {
-    const auto log_toughness = [&](double moved, int draw) -> std::optional<double> {
-      const auto row = table.find(key_of(proposed, moved, draw));
+  for (const MeasuredProposal& proposed : designs) {
+    const auto log_toughness = [&](double perturbation, int draw) -> std::optional<double> {
+      const auto row = table.find(key_of(proposed, perturbation, draw));
       if (!row || (*row)[0] <= 0.0) return std::nullopt;
       return std::log((*row)[0]);
     };
@@ -113,9 +112,9 @@ void print_row(const std::string& head, const std::vector<double>& errors) {
 }
 
 void run(const Options& options) {
-  std::vector<Proposed> designs;
+  std::vector<MeasuredProposal> designs;
   for (const std::string& folder : options.runs) {
-    const std::vector<Proposed> of_run = measured_proposals(folder);
+    const std::vector<MeasuredProposal> of_run = measured_proposals(folder);
     designs.insert(designs.end(), of_run.begin(), of_run.end());
   }
   study::StudyTable table(options.table.table, kFractureColumns);
@@ -125,7 +124,7 @@ void run(const Options& options) {
   print_row("one simulation", errors_of(options, designs, table, 0.0, 0));
   for (const double relative : kRelative) {
     for (const int draws : {1, 3, 6, options.draws}) {
-      print_row(fmt::format("mean of it and {} moved by {:g}", draws, relative),
+      print_row(fmt::format("mean of it and {} perturbed by {:g}", draws, relative),
                 errors_of(options, designs, table, relative, draws));
     }
   }
@@ -135,10 +134,10 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Proposed designs, simulated again under moved parameters, against what was measured of them"};
+  CLI::App app{"Proposed designs, simulated again with perturbed parameters, against what was measured of them"};
   Options options;
   app.add_option("RUN", options.runs, "folders of played games")->required()->check(CLI::ExistingDirectory);
-  app.add_option("--draws", options.draws, "moved simulations of a design and size")->check(CLI::Range(6, 100));
+  app.add_option("--draws", options.draws, "perturbed simulations of a design and size")->check(CLI::Range(6, 100));
   study::add_table_options(app, options.table, "draws");
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });

@@ -1,6 +1,6 @@
-// How far the toughness of a design moves when its parameters are moved by less than anybody knows them: T is
-// discontinuous, because which element fails next may turn on the last digit. Results: docs/studies/repeatability.md,
-// data/discretisation_floor.toml.
+// Spread of the toughness of a design under perturbations of its parameters that are smaller than their uncertainty: T
+// is discontinuous, because which element fails next may turn on the last digit. Results:
+// docs/studies/repeatability.md, data/discretisation_floor.toml.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -49,7 +49,8 @@ std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector
   return wanted;
 }
 
-/// Of log T, log peak stress and log failure strain of one pattern between draws of one size.
+/// Standard deviations of log T, log peak stress and log failure strain, and the largest range of log T, between draws
+/// of one perturbation; one value a pattern.
 struct Deviations {
   std::vector<double> toughness, peak, strain, largest;
 };

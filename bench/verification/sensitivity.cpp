@@ -1,4 +1,4 @@
-// What T depends on that is numerics rather than material: damping, strain rate, time step, number type. Results:
+// Sensitivity of T to the numerical method: damping, strain rate, time step, number type. Results:
 // docs/studies/verification.md.
 
 #include <fmt/format.h>
@@ -20,16 +20,16 @@ struct Options {
   study::TableOptions table{.table = "sensitivity.csv"};
 };
 
-/// One way to run a specimen that differs from the tester's in one respect.
-struct Variant {
+/// A fracture test that differs from the tester's in one setting.
+struct TesterVariant {
   std::string name;
   double gamma_scale = 1.0;
   tester::Discretisation discretisation = {};
   bool double_precision = false;
 };
 
-std::vector<Variant> variants() {
-  std::vector<Variant> list = {{.name = "the tester"}};
+std::vector<TesterVariant> variants() {
+  std::vector<TesterVariant> list = {{.name = "the tester"}};
   for (const double scale : {0.1, 0.3, 3.0, 10.0})
     list.push_back({.name = fmt::format("gamma x {:g}", scale), .gamma_scale = scale});
   for (const double scale : {0.5, 2.0, 4.0})
@@ -39,11 +39,11 @@ std::vector<Variant> variants() {
   return list;
 }
 
-std::string key_of(const Options& options, const pattern::Pattern& pattern, const Variant& variant) {
+std::string key_of(const Options& options, const pattern::Pattern& pattern, const TesterVariant& variant) {
   return fmt::format("{} {} {} {}", options.fidelity, options.table.seed, pattern.key(), variant.name);
 }
 
-Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Variant& variant,
+Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const TesterVariant& variant,
                                      tester::Fidelity fidelity) {
   tester::Simulation simulation{pattern, material::default_parameters(), {}, fidelity};
   simulation.parameters.toughness.gamma_per_s *= variant.gamma_scale;
@@ -52,7 +52,7 @@ Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Vari
 }
 
 void print_row(const Options& options, const std::vector<pattern::Pattern>& patterns, const study::StudyTable& table,
-               const Variant& variant) {
+               const TesterVariant& variant) {
   std::vector<double> ratios, sizes, own, reference;
   for (const pattern::Pattern& pattern : patterns) {
     const auto row = table.find(key_of(options, pattern, variant)),
@@ -75,7 +75,7 @@ void run(const Options& options) {
   study::StudyTable table(options.table.table, kFractureColumns);
   std::vector<study::Wanted> wanted;
   for (const pattern::Pattern& pattern : patterns)
-    for (const Variant& variant : variants()) {
+    for (const TesterVariant& variant : variants()) {
       const std::string key = key_of(options, pattern, variant);
       wanted.push_back({key, [=] { return fracture_row(key, pull(pattern, variant, fidelity)); }});
     }
@@ -83,7 +83,7 @@ void run(const Options& options) {
   fmt::print("{}: T against that of the tester\n\n", options.fidelity);
   fmt::print("| variant | patterns | mean of log ratio | sd | median change | largest change | Spearman |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const Variant& variant : variants()) print_row(options, patterns, table, variant);
+  for (const TesterVariant& variant : variants()) print_row(options, patterns, table, variant);
   if (missing > 0) fmt::print("\n{} simulations are still missing: run it again\n", missing);
 }
 

@@ -8,7 +8,6 @@
 
 #include "dashboard/background.hpp"
 #include "store/run_record.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::dashboard {
 

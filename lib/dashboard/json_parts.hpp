@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {

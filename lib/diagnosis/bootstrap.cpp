@@ -55,7 +55,7 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
   constexpr std::size_t kTests = 3;
   std::map<std::string, std::size_t> materials;
   std::vector<std::size_t> parts;
-  for (const Row& row : observations.rows) {
+  for (const DataRow& row : observations.rows) {
     parts.push_back(static_cast<std::size_t>(row.test));
     if (row.group < 0 || row.test != tester::TestKind::tensile) continue;
     const std::string material = observations.groups[row.group].material();
@@ -149,7 +149,7 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     const double length = g.col(k).norm();
-    // What the anchor imitates almost entirely says nothing about it.
+    // A direction that the anchor imitates almost entirely has no contrast with it.
     const bool visible = length > 0.1 * whitened.col(k).norm();
     statistics.contrasts.push_back(visible ? std::abs(g.col(k).dot(residual)) / length : 0.0);
   }

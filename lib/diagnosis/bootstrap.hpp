@@ -1,6 +1,7 @@
 #pragma once
 // Parametric bootstrap of the whole decision: data are drawn from a fitted model with the noise of the actual design
-// (replicate scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
+// (replicate scatter re-estimated in every draw, discretisation floor), and everything is refitted on linearised
+// models.
 
 #include <Eigen/Dense>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace nacre::diagnosis {
 
-/// What adding one effect to an anchor model would change, at several sizes of the effect.
+/// Signature of an effect: the change of all predictions by adding it to an anchor model, at several effect sizes.
 struct Signature {
   std::string effect;
   Eigen::MatrixXd changes;  ///< rows x sizes
@@ -29,19 +30,19 @@ struct DrawStatistics {
   double largest_contrast() const;
 };
 
-/// An anchor model with the effects that may be added to it and the directions its residuals are looked at along.
+/// An anchor model with the effects that may be added to it and the directions along which its residuals are compared.
 struct Anchor {
   FittedModel fit;
   std::vector<Signature> signatures;
   std::vector<ContrastDirection> directions;
-  std::vector<std::size_t> parts;  ///< of each row: chi2 is also looked at part by part
+  std::vector<std::size_t> parts;  ///< of each row: chi2 is also computed part by part
 };
 
 /// Parts that are independent of each other, of each row: moduli, fracture tests, coupons' history, and behind them
 /// coupons of one material each, in the order of the rows. Rows of one part share a scatter.
 std::vector<std::size_t> parts_of_rows(const Observations& observations);
 
-/// Data with their noise model: the values of the rows and the covariance that these data themselves suggest.
+/// Data with their noise model: the values of the rows and the covariance estimated from these data themselves.
 struct NoisyData {
   Eigen::VectorXd values;
   Whitener whitener;
@@ -63,7 +64,7 @@ class DataSource {
   NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
 
  private:
-  /// What as many replicates may come to say of their scatter.
+  /// The scatter that as many replicates may estimate, over the true one.
   ScatterFactors draw_factors(RandomStream& random) const;
 
   Eigen::MatrixXd to_combinations_;       ///< makes the covariance the identity and every scatter diagonal
@@ -97,13 +98,14 @@ double exceedance(const std::vector<double>& draws, double observed);
 double threshold(std::vector<double> draws, double level);
 
 /// Chance of a chi2 as large, of the whole or of the part that stands out most: a part that noise explains generously
-/// must not hide what another one shows. Family-wise over whole and parts.
+/// must not hide the misfit of another one. Family-wise over whole and parts.
 double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);
 
 /// The part of chi squared that is larger than draws have it, most times over: an index into DrawStatistics::parts.
 std::size_t loudest_part(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);
 
-/// Norm of a signature after whitening, and after projection off what the anchor's coordinates can imitate.
+/// Norm of a signature after whitening (its signal-to-noise ratio), and after projection off what the anchor's
+/// coordinates can imitate.
 struct SignatureSize {
   double whitened = 0.0;
   double projected = 0.0;

@@ -14,21 +14,21 @@ constexpr double kNothing = 1e-9;
 
 }  // namespace
 
-bool tells_on_moduli(const material::Effect& effect) {
+bool is_identified_by_moduli(const material::Effect& effect) {
   return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" ||
          effect.name == "droplet_mixing" || effect.name == "rigid_overprint";
 }
 
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
-  const Row& each = observations.rows[row];
-  return each.probe == Probe::mean && each.test == TestKind::modulus &&
+  const DataRow& each = observations.rows[row];
+  return each.kind == RowKind::mean && each.test == TestKind::modulus &&
          observations.group_of(static_cast<int>(row)).design.layout() != nullptr;
 }
 
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows) {
   return std::ranges::any_of(rows, [&](Eigen::Index row) {
-    return change[row] > kNothing && (tells_on_moduli(effect) || !is_modulus_of_layout(observations, row));
+    return change[row] > kNothing && (is_identified_by_moduli(effect) || !is_modulus_of_layout(observations, row));
   });
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Which effects are looked for at all on some rows (docs/METHODS.md, "Diagnosis", 3), and whether there is enough to
-// look at.
+// Which effects are candidates on some rows (docs/METHODS.md, "Diagnosis", 3), and whether there are enough rows.
 
 #include <optional>
 #include <span>
@@ -10,19 +9,19 @@
 
 namespace nacre::diagnosis {
 
-/// Effects that blind trials showed to be told by moduli alone, and those of the machine; the others need a test beside
-/// moduli to be named by.
-bool tells_on_moduli(const material::Effect& effect);
+/// Whether moduli alone can identify an effect: those of the machine, and those that blind trials showed; the others
+/// need a further test to be named.
+bool is_identified_by_moduli(const material::Effect& effect);
 
-/// Whether a row is the mean modulus of a layout: traces there do not count for effects that need another test.
+/// Whether a row is the mean modulus of a layout: a signature there does not count for effects that need another test.
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row);
 
-/// Whether an effect leaves traces in these rows that count. `change`: the most that it moves every row of the
+/// Whether an effect has a signature in these rows that counts. `change`: the largest change of every row of the
 /// observations.
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows);
 
-/// Why these groups are too few for a diagnosis, as a sentence without its full stop; nothing where they are enough.
+/// Why these groups are too few for a diagnosis, as a sentence without its full stop; empty where they are enough.
 std::optional<std::string> why_too_few(std::span<const Observation> groups);
 
 }  // namespace nacre::diagnosis

@@ -16,14 +16,13 @@ bool holds(const std::vector<FittedModel>& fits, const std::string& effect) {
   });
 }
 
-/// The change between base and the joint fit, in what the base cannot imitate; a typical one where the fit found
-/// nothing.
+/// The change between base and the joint fit; the signature of a typical size where the effect was not noticed.
 Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed) {
   const Eigen::VectorXd fitted = evidence.singles[k].predicted - evidence.base.fit.predicted;
   return noticed ? fitted : evidence.base.signatures[k].changes.col(kTypicalSize);
 }
 
-/// The smallest parameter of effect k whose traces these data would show, beyond what the base imitates.
+/// The smallest parameter of effect k whose signature is visible in these data, beyond what the base imitates.
 std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, const Whitener& whitener) {
   const auto sizes = Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kSizes)));
   const Eigen::MatrixXd projected =
@@ -37,14 +36,14 @@ std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, con
 
 }  // namespace
 
-std::optional<double> smallest_strength(std::span<const double> strengths, const std::vector<double>& judged,
+std::optional<double> smallest_strength(std::span<const double> strengths, const std::vector<double>& value,
                                         double wanted) {
   constexpr double kNothing = 0.01;
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i] < wanted) continue;
-    if (i == 0) return strengths[0] * wanted / judged[0];
-    if (judged[i - 1] < kNothing) return strengths[i];
-    const double t = std::log(wanted / judged[i - 1]) / std::log(judged[i] / judged[i - 1]);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (value[i] < wanted) continue;
+    if (i == 0) return strengths[0] * wanted / value[0];
+    if (value[i - 1] < kNothing) return strengths[i];
+    const double t = std::log(wanted / value[i - 1]) / std::log(value[i] / value[i - 1]);
     return strengths[i - 1] * std::pow(strengths[i] / strengths[i - 1], t);
   }
   return std::nullopt;

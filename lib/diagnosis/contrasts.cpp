@@ -122,8 +122,8 @@ void add_if_varying(std::vector<ContrastDirection>& directions, const std::strin
 std::vector<int> rows_of(const Observations& observations, Feature feature, tester::TestKind test) {
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
-    if (row.probe == Probe::mean && row.feature == feature && row.test == test) rows.push_back(i);
+    const DataRow& row = observations.rows[i];
+    if (row.kind == RowKind::mean && row.feature == feature && row.test == test) rows.push_back(i);
   }
   return rows;
 }
@@ -166,8 +166,8 @@ std::vector<Descriptor> descriptors() {
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted) {
   std::vector<ContrastDirection> directions;
   Kinds kinds;
-  for (const Row& row : observations.rows)
-    if (row.probe == Probe::mean) kinds.emplace(row.feature, row.test);
+  for (const DataRow& row : observations.rows)
+    if (row.kind == RowKind::mean) kinds.emplace(row.feature, row.test);
   for (const auto& [feature, test] : kinds) {
     const std::vector<int> rows = rows_of(observations, feature, test);
     const std::string whole_name = name_of(feature, test, kinds);
@@ -188,10 +188,10 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
                      spread(observations, rows, descriptor.of), rows);
   }
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
-    if (row.probe == Probe::mean || row.probe == Probe::batch_rest) continue;
+    const DataRow& row = observations.rows[i];
+    if (row.kind == RowKind::mean || row.kind == RowKind::batch_rest) continue;
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
-                                      row.probe == Probe::batch ? "one batch" : "one specimen printed"),
+                                      row.kind == RowKind::batch ? "one batch" : "one specimen printed"),
                           {row.feature, row.test, ""},
                           Eigen::VectorXd::Unit(observations.size(), i)});
   }
@@ -208,9 +208,9 @@ std::vector<ContrastDirection> even_directions(const Observations& observations)
       Descriptor{"thickness", [](const Observation& g) { return 1.0 / g.conditions.thickness_mm; }}};
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
+    const DataRow& row = observations.rows[i];
     const bool scales = row.feature == Feature::log_modulus || is_curve_stress(row.feature);
-    if (row.probe == Probe::mean && scales) rows.push_back(i);
+    if (row.kind == RowKind::mean && scales) rows.push_back(i);
   }
   std::vector<ContrastDirection> directions;
   for (const Descriptor& condition : conditions)

@@ -1,4 +1,6 @@
 #pragma once
+// Contrasts: pre-declared unit vectors d over the rows; the statistic of one is d' r of the whitened residual r,
+// projected off what the model imitates.
 
 #include <Eigen/Dense>
 #include <functional>
@@ -28,12 +30,12 @@ struct Descriptor {
 std::vector<Descriptor> descriptors();
 
 /// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and
-/// peak stress; every feature as a whole; what changes from batch to batch and with the print order; every batch of
-/// three and more.
+/// peak stress; every feature as a whole; changes from batch to batch and with the print order; every batch of three
+/// and more.
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 
-/// One factor on every stress and stiffness of the turned specimens, and one that grows with 1 / thickness: what causes
-/// outside the library do that none of its effects does exactly (a bulk that is softer across its layers, calipers that
+/// One factor on every stress and stiffness of the turned specimens, and one that grows with 1 / thickness: signatures
+/// of unmodelled causes that no known effect reproduces exactly (a bulk that is softer across its layers, calipers that
 /// are off). None for a condition that does not vary.
 std::vector<ContrastDirection> even_directions(const Observations& observations);
 

@@ -13,8 +13,8 @@ namespace {
 
 /// Of a prior about the middle, in widths of the widened range.
 constexpr double kWidePrior = 0.5;
-/// eta is looked for within this distance of the centre, in log units, with this standard deviation: the emulator knows
-/// no more.
+/// eta is searched within this distance of the centre, in log units, with this standard deviation of the prior: the
+/// emulator is trained no farther.
 constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
 
 struct Bounds {
@@ -97,7 +97,7 @@ double CoordinateMap::value(int i, double u) const {
   return i >= base_count() ? material::value_at_strength(parameter_of(i), u) : plain(base_[i], u);
 }
 
-std::vector<std::string> CoordinateMap::moduli_at_an_end(const Eigen::VectorXd& u) const {
+std::vector<std::string> CoordinateMap::moduli_at_bounds(const Eigen::VectorXd& u) const {
   constexpr double kEnd = 1e-3;
   constexpr int kModuli = 3;
   std::vector<std::string> found;

@@ -1,6 +1,6 @@
 #pragma once
-// Coordinates of a fit: the base constants of each kind of specimen, then one per parameter of the effects that extend
-// the model.
+// Coordinates u of a fit: the base constants of each kind of specimen, then one per parameter of the effects that
+// extend the model. log p = low + u (high - low) for moduli, energies and damping; p linear in u for Poisson's ratios.
 
 #include <Eigen/Dense>
 #include <span>
@@ -12,15 +12,15 @@
 
 namespace nacre::diagnosis {
 
-/// Which base constants are free. Kinds of specimens have constants of their own (thesis 2.3.1, 3.2.4): what they share
-/// are effects.
+/// Which base constants are free. Kinds of specimens have constants of their own (thesis 2.3.1, 3.2.4) and share
+/// effects.
 struct Basis {
   bool modulus =
       true;  ///< theta of modulus tests of layouts: E and nu of three materials (gamma has no effect on a static test)
   bool toughness = false;  ///< eta of fracture tests: E and W of three materials, gamma
   bool coupon = false;     ///< E and nu of the bulk materials: homogeneous coupons
   material::ParameterSet centre =
-      material::default_parameters();                            ///< where eta is looked for, and what is not searched
+      material::default_parameters();  ///< centre of the search for eta, and values of constants that are not searched
   material::ParameterRanges ranges = material::thesis_ranges();  ///< of theta and the bulk constants
 };
 
@@ -42,9 +42,9 @@ class CoordinateMap {
   double upper(int i) const;
   /// Standard deviation of the prior of a base coordinate about its middle, 0.5.
   double prior_sd(int i) const { return base_[i].prior_sd; }
-  /// Young's moduli whose base coordinate is an end of what is searched, `e_vw_pa = 1.39e+09` (`... of coupons`): no
-  /// prior would leave them there, the ranges are those of other inks.
-  std::vector<std::string> moduli_at_an_end(const Eigen::VectorXd& u) const;
+  /// Young's moduli at their bounds, `e_vw_pa = 1.39e+09` (`... of coupons`): no prior would leave them there, the
+  /// ranges are those of other inks.
+  std::vector<std::string> moduli_at_bounds(const Eigen::VectorXd& u) const;
   /// Physical value of coordinate i at u.
   double value(int i, double u) const;
   /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.

@@ -14,15 +14,15 @@ namespace {
 /// Amplitudes that are tried, in standard deviations of a row; 0 is the base model.
 constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7,  1.0,  1.4,  2.0,
                                     2.8, 4.0,  5.6,  8.0, 11.0, 16.0, 23.0, 32.0};
-/// Enough to tell 3 %.
+/// Enough to resolve 3 %.
 constexpr int kMostDraws = 1000;
 
 /// Mean of `matrix`'s diagonal over the rows of each kind (feature, test, probe) is brought to `noise`'s.
 Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix, const Observations& observations) {
-  std::map<std::tuple<Feature, tester::TestKind, Probe>, std::pair<double, double>> sums;
+  std::map<std::tuple<Feature, tester::TestKind, RowKind>, std::pair<double, double>> sums;
   const auto kind = [&](int i) {
-    const Row& row = observations.rows[i];
-    return std::tuple(row.feature, row.test, row.probe);
+    const DataRow& row = observations.rows[i];
+    return std::tuple(row.feature, row.test, row.kind);
   };
   for (int i = 0; i < observations.size(); ++i)
     sums[kind(i)].first += matrix(i, i), sums[kind(i)].second += noise(i, i);
@@ -38,7 +38,7 @@ Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix
 /// of the noise.
 struct Marginal {
   Eigen::VectorXd residual;    ///< from the middle of the prior
-  Eigen::MatrixXd covariance;  ///< noise and what the base can move
+  Eigen::MatrixXd covariance;  ///< of the noise and of the base's prior predictions
 };
 
 Marginal marginal(const FittedModel& base, const NoisyData& data) {
@@ -54,11 +54,11 @@ Marginal marginal(const FittedModel& base, const NoisyData& data) {
 
 struct Amplitude {
   double value = 0.0;
-  double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without outsider
+  double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without discrepancy
 };
 
-/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have more than one
-/// hill.
+/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have several
+/// maxima.
 Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
   Amplitude best;
   double reference = 0.0;
@@ -106,9 +106,9 @@ Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
   for (const ContrastDirection& direction : directions) along += direction.values * direction.values.transpose();
   for (int i = 0; i < observations.size(); ++i) {
     for (int j = 0; j < observations.size(); ++j) {
-      const Row &a = observations.rows[i], &b = observations.rows[j];
-      const bool alike = a.feature == b.feature && a.test == b.test && a.probe == b.probe;
-      if (alike && a.probe == Probe::mean && observations.group_of(i).design == observations.group_of(j).design)
+      const DataRow &a = observations.rows[i], &b = observations.rows[j];
+      const bool same_kind = a.feature == b.feature && a.test == b.test && a.kind == b.kind;
+      if (same_kind && a.kind == RowKind::mean && observations.group_of(i).design == observations.group_of(j).design)
         own(i, j) = 1.0;
     }
   }

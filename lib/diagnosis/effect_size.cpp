@@ -8,25 +8,27 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Sizes that are tried first beside the named one, as shares of it.
+/// Sizes that are tried first, as shares of the named one.
 constexpr double kFirstShares[] = {1.2, 1.45, 0.83, 0.67};
-/// -2 log likelihood: sizes that are so much less likely than the best are of no interest; between sizes that differ by
-/// more than a step a further one is tried, so often. A fit that is worse by so much got caught.
+/// In profile deviance: sizes that are so much less likely than the best are of no interest; between sizes that differ
+/// by more than a step a further one is tried, in so many rounds. A fit that is worse by so much is caught in a local
+/// minimum.
 constexpr double kOfInterest = 8.0, kStep = 2.5, kCaught = 30.0;
 constexpr int kRounds = 4;
-/// By how much a size goes on beyond an end that is of interest.
+/// Factor from the last size that is of interest to the next.
 constexpr double kBeyond = 1.6;
 
-/// The model at one size, by coordinate of the size.
-using Profile = std::map<double, ProfileFit>;
+/// The profile: the model refitted at each size, by coordinate of the size.
+using SizeProfile = std::map<double, ProfileFit>;
 
-double least_deviance(const Profile& profile) {
-  return std::ranges::min_element(profile, {}, [](const Profile::value_type& known) { return known.second.deviance; })
+double least_deviance(const SizeProfile& profile) {
+  return std::ranges::min_element(profile, {},
+                                  [](const SizeProfile::value_type& known) { return known.second.deviance; })
       ->second.deviance;
 }
 
-/// Fits at one more size of coordinate i, begun at these constants; the better of this and of what is known there.
-void fit_at(const Evidence& evidence, Profile& profile, int i, double size, Eigen::VectorXd start) {
+/// Fits at one more size of coordinate i, from these constants; the better of this and of any earlier fit there.
+void fit_at(const Evidence& evidence, SizeProfile& profile, int i, double size, Eigen::VectorXd start) {
   start[i] = size;
   const double hopeless = least_deviance(profile) + 2.0 * kCaught;
   ProfileFit at = fit_with_own_discretisation(evidence, profile.begin()->second.fit.effects, start, {i}, hopeless);
@@ -35,9 +37,9 @@ void fit_at(const Evidence& evidence, Profile& profile, int i, double size, Eige
 }
 
 /// Tries one more size of coordinate i, from the constants of the next smaller or the next larger one of those that are
-/// not far from the best, whichever is the better; from those of the other too where this is worse than both: a hill
-/// that catches from one side seldom does from the other.
-void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
+/// not far from the best, whichever is the better; from those of the other too where this is worse than both: a local
+/// minimum that catches from one side seldom does from the other.
+void try_size(const Evidence& evidence, SizeProfile& profile, int i, double size) {
   const FittedModel& any = profile.begin()->second.fit;
   size = std::clamp(size, any.lower[i], any.upper[i]);
   if (profile.contains(size)) return;
@@ -54,9 +56,8 @@ void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
   if (other && profile[size].deviance > other->deviance) fit_at(evidence, profile, i, size, other->fit.u);
 }
 
-/// Middles between neighbours of interest that differ by more than a step, and what lies beyond ends that are of
-/// interest.
-std::vector<double> missing_sizes(const Profile& profile) {
+/// Middles between neighbours of interest that differ by more than a step, and sizes beyond ends that are of interest.
+std::vector<double> missing_sizes(const SizeProfile& profile) {
   const double least = least_deviance(profile);
   const auto& [first, first_at] = *profile.begin();
   const auto& [last, last_at] = *profile.rbegin();
@@ -70,10 +71,11 @@ std::vector<double> missing_sizes(const Profile& profile) {
   return missing;
 }
 
-Profile profile_of(const Evidence& evidence, const FittedModel& named, int i) {
-  Profile profile;
+SizeProfile profile_of(const Evidence& evidence, const FittedModel& named, int i) {
+  SizeProfile profile;
   profile[named.u[i]] = fit_with_own_discretisation(evidence, named.effects, named.u, {i});
-  // Far from the named size too, from where the search for the base began: other constants may hide another size.
+  // Restarted far from the fitted size too, from the initial guess of the base: other constants may hide another
+  // optimum.
   for (const double size : kSizes)
     fit_at(evidence, profile, i, std::copysign(size, named.u[i]), at_first_constants(evidence, named.u));
   for (const double share : kFirstShares) try_size(evidence, profile, i, share * named.u[i]);
@@ -83,7 +85,7 @@ Profile profile_of(const Evidence& evidence, const FittedModel& named, int i) {
 }
 
 /// The size below which this share of the likelihood lies; at least two sizes.
-double quantile_of(const Profile& profile, double share) {
+double quantile_of(const SizeProfile& profile, double share) {
   const double least = least_deviance(profile);
   std::vector<double> sizes, below = {0.0};
   double former = 0.0;
@@ -99,7 +101,7 @@ double quantile_of(const Profile& profile, double share) {
   return sizes[k - 1] + (sizes[k] - sizes[k - 1]) * (wanted - below[k - 1]) / (below[k] - below[k - 1]);
 }
 
-struct Interval {
+struct SizeInterval {
   double low = 0.0, middle = 0.0, high = 0.0;
 };
 
@@ -111,24 +113,24 @@ double student(int dof) {
   return 1.0 + v * (0.926 + v * (0.863 + v * (0.598 + v * 0.264)));
 }
 
-/// Degrees of freedom behind the scatter of those rows that say most of a coordinate.
+/// Degrees of freedom behind the scatter of those rows that determine a coordinate most.
 int dof_behind(const Observations& observations, const FittedModel& fit, int coordinate) {
   const Eigen::VectorXd variances = observations.covariance().diagonal();
-  std::vector<double> said(observations.scatter.size());
+  std::vector<double> information(observations.scatter.size());
   for (int i = 0; i < observations.size(); ++i)
-    said[observations.rows[i].scatter] += std::pow(fit.jacobian(i, coordinate), 2) / variances[i];
-  const ReplicateScatter& most = observations.scatter[std::ranges::max_element(said) - said.begin()];
+    information[observations.rows[i].scatter] += std::pow(fit.jacobian(i, coordinate), 2) / variances[i];
+  const ReplicateScatter& most = observations.scatter[std::ranges::max_element(information) - information.begin()];
   return most.dof > 0 ? most.dof + most.assumed_dof : 0;
 }
 
-Interval by_likelihood(const Evidence& evidence, const FittedModel& named, int i) {
-  const Profile profile = profile_of(evidence, named, i);
+SizeInterval by_likelihood(const Evidence& evidence, const FittedModel& named, int i) {
+  const SizeProfile profile = profile_of(evidence, named, i);
   const double middle = quantile_of(profile, 0.5), widened = student(dof_behind(evidence.observations, named, i));
   return {middle + widened * (quantile_of(profile, 0.05) - middle), middle,
           middle + widened * (quantile_of(profile, 0.95) - middle)};
 }
 
-Interval by_covariance(const Evidence& evidence, FittedModel named, int i) {
+SizeInterval by_covariance(const Evidence& evidence, FittedModel named, int i) {
   named.free_all();
   const Whitener whitener(evidence.observations.covariance());
   const double half =
@@ -136,7 +138,7 @@ Interval by_covariance(const Evidence& evidence, FittedModel named, int i) {
   return {named.u[i] - half, named.u[i], named.u[i] + half};
 }
 
-FittedNumber in_units(const CoordinateMap& map, int i, const Interval& u) {
+FittedNumber in_units(const CoordinateMap& map, int i, const SizeInterval& u) {
   // A limit falls as its effect grows stronger.
   const double a = map.value(i, std::max(u.low, map.lower(i))), b = map.value(i, std::min(u.high, map.upper(i)));
   return {map.value(i, u.middle), std::min(a, b), std::max(a, b)};
@@ -154,7 +156,8 @@ NamedModel measure_size(const Evidence& evidence, const FittedModel& named) {
     const int i = map.first_coordinate(k);
     const bool moves_elements =
         evidence.observations.has_shared_discretisation() && effect.side == material::EffectSide::material;
-    const Interval interval = moves_elements ? by_likelihood(evidence, named, i) : by_covariance(evidence, named, i);
+    const SizeInterval interval =
+        moves_elements ? by_likelihood(evidence, named, i) : by_covariance(evidence, named, i);
     const FittedNumber size = in_units(map, i, interval);
     model.effects.push_back({std::string(effect.name), std::string(effect.family), size.value, size.interval_low,
                              size.interval_high, std::string(effect.parameters.front().unit)});

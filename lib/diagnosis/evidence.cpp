@@ -1,22 +1,23 @@
+#include "diagnosis/evidence.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/contrasts.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// How often the directions of the numerics are computed anew at models fitted with them.
+/// How often the shared directions of the discretisation error are computed anew at models fitted with them.
 constexpr int kMeshPasses = 2;
-/// How often fracture tests are simulated at the fits and learnt from, and how far the emulator may be off before it is
-/// done again.
+/// How often fracture tests are simulated at the fits and learnt from, and the largest error of the emulator before
+/// that is repeated.
 constexpr int kRefinements = 3;
 constexpr double kWellKnown = 1.5;
 /// Effects whose fits are simulated: those that come near the best.
 constexpr std::size_t kRefinedEffects = 4;
 
-/// These sizes of an effect, and of a two-sided one the same the other way round, in the order of a signature's
-/// changes.
+/// These sizes of an effect, and of a two-sided one their negatives, in the order of a signature's changes.
 std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) {
   std::vector<double> all(sizes.begin(), sizes.end());
   if (!one_sided)
@@ -29,21 +30,21 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
-/// The base model with what is seen from it.
+/// The base model with signatures and contrasts on top of it.
 void put_base(Evidence& evidence, FittedModel base) {
   evidence.base.fit = std::move(base);
   evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
 }
 
-/// A base and one effect from where it promises most.
+/// Base and one effect, from the best initial guess.
 FittedModel fit_single(const Evidence& evidence, std::size_t effect) {
   return fit_model(
       evidence.model, evidence.observations, {evidence.effects[effect]},
       best_initial_guess(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
 }
 
-/// First constants, with the size at which the effect promises most there.
+/// First constants, with the effect size of the smallest chi squared there.
 Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedModel& fit) {
   const Eigen::VectorXd first = at_first_constants(evidence, fit.u);
   const Eigen::Index own = evidence.base.fit.u.size();
@@ -64,8 +65,8 @@ Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedMo
   return starts[best];
 }
 
-/// The base gets the start that the best extended fit ended with: a gain must not be better optimisation. Where that
-/// helps it, every effect begins once more from there.
+/// The base is restarted from where the best extended fit ended: a gain must not be better optimisation. Where that
+/// helps it, every effect is restarted from there.
 void restart_base(Evidence& evidence) {
   constexpr double kBetter = 0.1;
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
@@ -78,7 +79,8 @@ void restart_base(Evidence& evidence) {
     evidence.singles[k] = better_of(std::move(evidence.singles[k]), fit_single(evidence, k));
 }
 
-/// An effect that ended with more than the base leaves went astray: without any of it, it is the base.
+/// An effect of larger chi squared than the base is caught in a local minimum, since at size 0 it is the base:
+/// restarted there.
 void restart_at_the_base(Evidence& evidence) {
   constexpr double kMore = 0.02;
   for (FittedModel& single : evidence.singles) {
@@ -103,7 +105,7 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
            "fitting base and " + evidence.effects[k]);
-    // An earlier fit that found something is where to go on, under another covariance or emulator.
+    // An earlier fit of some size is the initial guess under another covariance or emulator.
     const bool found =
         k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
     singles.push_back(
@@ -136,8 +138,8 @@ void share_discretisation(Evidence& evidence) {
   evidence.observations.discretisation_sd = evidence.settings.floor.mesh_remainder_sd;
 }
 
-/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator knows
-/// them.
+/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator
+/// predicts them.
 void refine_fractures(Evidence& evidence, Workbench& workbench) {
   if (!workbench.has_fractures()) return;
   for (int pass = 0; pass < kRefinements; ++pass) {
@@ -203,7 +205,7 @@ FittedModel restarted(const Evidence& evidence, FittedModel fit) {
     return better_of(std::move(fit), std::move(again));
   };
   if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
-  // A further fit of every effect to moduli of layouts would double the work; what a machine does to curves needs it.
+  // A further fit of every effect to moduli of layouts would double the work; effects of a machine on curves need it.
   const bool is_far_off = fit.chi2 > evidence.observations.size() + kMuch;
   const bool is_of_curves =
       material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
@@ -234,7 +236,7 @@ Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations
     best.head(own) += step;
     best[own] = sizes[i];
   }
-  // A start at exactly zero may be a stationary point of an effect that begins quadratically.
+  // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
   if (best[own] == 0.0) best[own] = kSizes[0];
   return best;
 }

@@ -12,8 +12,8 @@ namespace {
 
 using tester::TestKind;
 
-/// Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the
-/// same for less.
+/// Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: of the others the
+/// modulus gives the same information for less.
 std::vector<PossibleTest> tests_worth_their_cost(const Observations& observations) {
   std::vector<PossibleTest> tests = possible_tests(observations);
   if (observations.has(TestKind::modulus))
@@ -48,11 +48,12 @@ std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
     const tester::Loading loading = test.test == TestKind::tensile ? coupon_loading() : tester::Loading{};
-    experiments.push_back({test.design, test.test, test.conditions, replicates, loading,
-                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors, their constants "
-                                       "fitted again",
-                                       test.words, in_words(separation.feature), in_words(models[a].effects),
-                                       in_words(models[b].effects), separation.errors)});
+    experiments.push_back(
+        {test.design, test.test, test.conditions, replicates, loading,
+         fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors after their constants "
+                     "are refitted",
+                     test.words, in_words(separation.feature), in_words(models[a].effects), in_words(models[b].effects),
+                     separation.errors)});
   }
   return experiments;
 }

@@ -1,15 +1,16 @@
 #pragma once
+// The next experiments: those that best separate the models that stay possible.
 
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/evidence.hpp"
 
 namespace nacre::diagnosis {
 
-/// At most `count` of the possible tests that together would best tell these models apart (choose_tests), by what each
-/// would add to what is measured (PredictedTests), `replicates` specimens of each. Fewer than two models: nothing to
-/// separate. Fracture tests are simulated, one per model and test.
+/// At most `count` of the possible tests that together would best separate these models (choose_tests), by the
+/// information of each beyond the present measurements (PredictedTests), `replicates` specimens of each. Fewer than two
+/// models: nothing to separate. Fracture tests are simulated, one per model and test.
 std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
                                              int count, int replicates = 3);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kPoints = 128;
 constexpr double kDropOffset = 0.05;
 constexpr double kCarriedShare = 0.8;  // of its largest stress: a coupon that carries less is parting
-constexpr double kShallowest = 0.8;    // an unloading that goes back less far has no slope to speak of
+constexpr double kShallowest = 0.8;    // an unloading that goes back less far has no reliable slope
 
 struct Names {
   std::string_view name, words;
@@ -65,7 +65,7 @@ void put_slope(FeatureValues& values, Feature feature, const Rise& rise, double 
   if (strain > 0.0) value_of(values, feature) = std::log((high - low) * rise.peak_pa / strain);
 }
 
-/// What the way up to the peak says.
+/// Features of the way up to the peak.
 void put_rise(FeatureValues& values, const Rise& rise) {
   put_slope(values, Feature::log_tangent_10, rise, 0.05, 0.15);
   put_slope(values, Feature::log_tangent_30, rise, 0.2, 0.4);
@@ -112,7 +112,7 @@ tester::Curve unloading_of(const tester::Curve& curve, const Unloading& unloadin
   return path;
 }
 
-/// What the first unloading says.
+/// Features of the first unloading.
 void put_unloading(FeatureValues& values, const tester::Curve& curve) {
   const auto unloading = first_unloading(curve);
   if (!unloading) return;

@@ -1,5 +1,5 @@
 #pragma once
-// What a diagnosis compares: numbers that a test says of a specimen, each smooth in the parameters and with a meaning
+// Features that a diagnosis compares: numbers that summarise a test, each smooth in the parameters and with a meaning
 // of its own.
 
 #include <array>
@@ -40,7 +40,7 @@ std::string_view in_words(Feature feature);
 bool is_curve_stress(Feature feature);
 Result<Feature> feature_from_string(std::string_view name);
 
-/// One value per feature, in their order; nothing where the test does not say.
+/// One value per feature, in their order; empty where the test does not show it.
 using FeatureValues = std::array<std::optional<double>, kFeatureCount>;
 inline std::optional<double>& value_of(FeatureValues& values, Feature feature) {
   return values[static_cast<std::size_t>(feature)];
@@ -50,7 +50,7 @@ inline const std::optional<double>& value_of(const FeatureValues& values, Featur
 }
 
 /// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and
-/// simulated curves are read alike. Nothing at all when the stress never rises.
+/// simulated curves are read in the same way. All empty when the stress never rises.
 FeatureValues fracture_features(const tester::Curve& curve);
 
 /// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee
@@ -62,9 +62,9 @@ FeatureValues tensile_features(const tester::Curve& curve);
 /// Whether a tensile curve goes back on its way.
 bool is_unloaded(const tester::Curve& curve);
 
-/// Where a tensile curve is to be read to: the strain up to which it carries four fifths of its largest stress, so that
-/// a material that flows is read while it flows, and none while it parts; nothing when it was unloaded on the way (then
-/// all of it).
+/// The strain up to which a tensile curve is read: where it carries four fifths of its largest stress, so that a
+/// material that flows is read while it flows, and none while it parts; empty when it was unloaded on the way (then all
+/// of the curve is read).
 std::optional<double> carried_strain(const tester::Curve& curve);
 
 }  // namespace nacre::diagnosis

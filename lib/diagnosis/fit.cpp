@@ -34,7 +34,7 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
   return u;
 }
 
-/// Coordinates that may move at all, and do not stand on a bound which the descent direction would leave.
+/// Coordinates that may move at all, and are not at a bound which the descent direction would leave.
 std::vector<int> free_coordinates(const FittedModel& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
                                   const Whitener& whitener, const std::vector<int>& held) {
   FittedModel whole = fit;
@@ -61,12 +61,12 @@ Eigen::VectorXd damped_step(const FittedModel& fit, const Eigen::VectorXd& y, co
   return full;
 }
 
-/// A share of something ends at the whole of it: that bound is physics, not the edge of what was thought of.
+/// A share ends at the whole: that bound is physics, not a choice.
 bool is_share(const material::EffectParameter& parameter) {
   return parameter.unit == "1" && parameter.minimum == 0.0 && parameter.maximum == 1.0;
 }
 
-/// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
+/// An extension at a bound other than zero: its range does not hold the truth.
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
   for (std::size_t k = 0; k < map.effects().size(); ++k) {
     const material::Effect& effect = *material::find_effect(map.effects()[k]);
@@ -123,8 +123,8 @@ double FittedModel::variance(int coordinate, const Whitener& whitener) const {
 
 namespace {
 
-/// A fit at `start` that knows its map and what is predicted there.
-FittedModel begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& start) {
+/// A fit at its initial guess, with bounds, prior and predictions.
+FittedModel initial_fit(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& start) {
   FittedModel fit;
   fit.effects = map.effects();
   fit.base_count = map.base_count();
@@ -148,7 +148,7 @@ Eigen::VectorXd widened_start(const FittedModel& fit, const CoordinateMap& map) 
 
 FittedModel linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.map(effects);
-  FittedModel fit = begun(model, map, u);
+  FittedModel fit = initial_fit(model, map, u);
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
   fit.free_all();
   fit.parameters = map.parameters(fit.u);
@@ -161,7 +161,7 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
   const CoordinateMap map = model.map(effects);
   const Eigen::VectorXd& y = observations.values;
   const Whitener whitener(observations.covariance());
-  FittedModel fit = begun(model, map, start);
+  FittedModel fit = initial_fit(model, map, start);
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -193,8 +193,8 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
 
 double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
                     Eigen::VectorXd* delta) {
-  // Data that no longer determine a coordinate would send it out of its range: what leaves is put on its bound, and the
-  // others are solved for again.
+  // Data that no longer determine a coordinate would send it out of its range: it is put at its bound, and the others
+  // are solved for again.
   FittedModel part = fit;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
   Eigen::VectorXd b = fit.whitened_residual(y, whitener);

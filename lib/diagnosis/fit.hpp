@@ -1,4 +1,5 @@
 #pragma once
+// Weighted least squares over the coordinates u: chi2 = (y - f(u))' C^-1 (y - f(u)) + ((u - 1/2) / prior_sd)^2.
 
 #include <Eigen/Dense>
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace nacre::diagnosis {
 
-/// Extensions as a sentence names them: "droplet mixing with rigid yield"; "the base model" for none.
+/// Extensions in words: "droplet mixing with rigid yield"; "the base model" for none.
 std::string in_words(const std::vector<std::string>& effects);
 
 /// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a
@@ -24,13 +25,13 @@ struct FittedModel {
   Eigen::MatrixXd jacobian;         ///< rows x coordinates
   std::vector<int> free;            ///< coordinates that may move; the others are held by a bound that they would leave
   double chi2 = 0.0;                ///< weighted sum of squares, prior included
-  bool extension_on_bound = false;  ///< an extension parameter ended on a bound of its range (zero does not count)
-  void free_all();                  ///< every coordinate may move, also one on a bound
+  bool extension_on_bound = false;  ///< an extension parameter is at its bound (zero does not count)
+  void free_all();                  ///< every coordinate may move, also one at its bound
   /// Whitened columns of the free coordinates: rows, then those of the prior.
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
   /// Whitened residual of data: rows, then those of the prior.
   Eigen::VectorXd whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const;
-  /// The same fit, seen from some of its rows.
+  /// The same fit over some of its rows.
   FittedModel restricted(const std::vector<Eigen::Index>& rows) const;
   /// Variance of one coordinate; 0 when it is held.
   double variance(int coordinate, const Whitener& whitener) const;
@@ -42,8 +43,8 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held = {});
 
-/// Start of a model with one effect more than `fit` has: the same coordinates, the new effect at zero, what belongs to
-/// it at its usual value.
+/// Initial guess of a model with one effect more than `fit` has: the same coordinates, the new effect at zero, its
+/// further parameters at their usual values.
 Eigen::VectorXd widened_start(const FittedModel& fit, const CoordinateMap& map);
 
 /// Base and effects at given coordinates, with the linearisation there and every coordinate free; chi2 is not computed.

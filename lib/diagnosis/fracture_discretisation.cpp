@@ -25,7 +25,7 @@ Eigen::MatrixXd matrix(const toml::table& table, const char* key, std::size_t si
 }
 
 /// Sums over few parameter sets have directions without any variance, which four printed digits may turn into slightly
-/// negative ones; spread over all layouts these outweigh the scatter. They are set to nothing; a matrix that is no
+/// negative ones; spread over all layouts these outweigh the scatter. They are set to zero; a matrix that is no
 /// covariance at all is an error.
 Eigen::MatrixXd as_covariance(const Eigen::MatrixXd& given, const char* key, const std::string& place) {
   constexpr double kRounding = 1e-3;

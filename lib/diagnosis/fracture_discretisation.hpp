@@ -1,4 +1,6 @@
 #pragma once
+// Discretisation floor of the fracture tester (data/discretisation_floor.toml, table [FIDELITY.curve];
+// docs/studies/discretisation-floor.md).
 
 #include <Eigen/Dense>
 #include <filesystem>
@@ -9,9 +11,8 @@
 
 namespace nacre::diagnosis {
 
-/// What the elements of the fracture tester leave of an error in the features of a curve
-/// (data/discretisation_floor.toml, table [FIDELITY.curve]; docs/studies/discretisation-floor.md). Between layouts i
-/// and j, z = (rigid fraction - 0.675) / 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
+/// Covariance of the discretisation error in the features of a curve. Between layouts i and j, with
+/// z = (rigid fraction - 0.675) / 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
 struct FractureDiscretisation {
   std::vector<Feature> features;          ///< empty: nothing known
   Eigen::MatrixXd shared, rigid, layout;  ///< features x features

@@ -10,7 +10,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// A group as a calibration knows it.
+/// A group in the form that a calibration uses.
 measurement::Replicates replicates_of(const Observation& group, double log_toughness_sd) {
   measurement::Replicates measured;
   measured.design = group.design;
@@ -66,15 +66,15 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
     if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
     wanted.push_back({fmt::format("run {}", runs_.size() + wanted.size()), simulated, false, true, items});
   }
-  auto answers = simulator_->simulate(measured_, wanted, done);
-  for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(answers[k])});
+  auto predictions = simulator_->simulate(measured_, wanted, done);
+  for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(predictions[k])});
 }
 
 material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start,
                                                    const material::ParameterRanges& ranges, int budget,
                                                    std::uint64_t seed, const sysid::ProgressCallback& progress) {
   // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find
-  // where to look.
+  // the region.
   std::vector<measurement::Replicates> designs;
   for (const measurement::Replicates& each : measured_) {
     const bool known =

@@ -11,23 +11,24 @@
 #include "diagnosis/observations.hpp"
 #include "measurement/observe.hpp"
 #include "measurement/summary.hpp"
+#include "sysid/local_simulator.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::diagnosis {
 
-/// What the tester says of every fracture group at one parameter set, before the testing machine.
+/// Predictions of every fracture group at one parameter set, before the testing machine.
 struct FractureRun {
   material::ParameterSet parameters;           ///< material side only
   std::vector<sysid::Prediction> predictions;  ///< per fracture group; without values where the simulation failed
 };
 
-/// The features that a prediction would show through a machine with these measurement-side extensions.
+/// The features of a prediction as recorded by a machine with these measurement-side extensions.
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
                              const measurement::PrintContext& context = {});
 
 class FractureRuns {
  public:
-  /// `store`: a file of answers that are kept (sysid::PredictionStore); empty: remembered while this object lives.
+  /// `store`: a file of predictions that are kept (sysid::PredictionStore); empty: remembered while this object lives.
   FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store,
                int threads);
   /// Indices of the observations' groups that are fracture tests.
@@ -50,7 +51,7 @@ class FractureRuns {
   std::vector<FractureRun> runs_;
 };
 
-/// The set without measurement-side extensions: what a simulation can depend on.
+/// The set without measurement-side extensions: the part that a simulation depends on.
 material::ParameterSet simulated_side(const material::ParameterSet& set);
 
 }  // namespace nacre::diagnosis

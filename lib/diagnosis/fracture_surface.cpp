@@ -45,8 +45,8 @@ FractureSurface::FractureSurface(const Observations& observations, const Fractur
                                  material::ToughnessParameters centre)
     : observations_(observations), runs_(runs), centre_(to_vector(centre)) {
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
-    if (row.probe != Probe::mean || row.test != tester::TestKind::toughness) continue;
+    const DataRow& row = observations.rows[i];
+    if (row.kind != RowKind::mean || row.test != tester::TestKind::toughness) continue;
     const auto at = std::find(runs.groups().begin(), runs.groups().end(), row.group);
     rows_.push_back({i, static_cast<int>(at - runs.groups().begin()), row.feature});
   }
@@ -94,15 +94,15 @@ Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const s
   return matrix;
 }
 
-/// Amplitude of every effect: root mean square over its runs of what they change beyond the base, per unit of the
-/// effect's own deviation.
+/// Amplitude of every effect: root mean square over its runs of their changes beyond the base, per unit of the effect's
+/// own deviation.
 void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const {
   std::vector<int> base;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, base));
   const Eigen::MatrixXd weights = factor.solve(centred(base, Eigen::all));
-  // Sums, not ratios: a run with hardly any of the effect says hardly anything of its amplitude.
+  // Sums, not ratios: a run with hardly any of the effect hardly informs its amplitude.
   std::map<int, std::pair<double, double>> squares;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points_[k].effects.size() != 1) continue;
@@ -126,14 +126,14 @@ FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>
     const Eigen::MatrixXd& targets;
   } posterior{*this, at, targets};
   const auto cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
-    const Posterior& asked = *static_cast<Posterior*>(data);
+    const Posterior& own = *static_cast<Posterior*>(data);
     const Kernel kernel{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), {}};
-    const Eigen::LLT<Eigen::MatrixXd> factor(asked.surface.covariance_matrix(kernel, asked.at));
+    const Eigen::LLT<Eigen::MatrixXd> factor(own.surface.covariance_matrix(kernel, own.at));
     const Eigen::MatrixXd lower = factor.matrixL();
-    // A weak prior about the start keeps what the runs do not determine.
+    // A weak prior about the start keeps the amplitudes that the runs do not determine.
     const double prior = 0.5 * (square(x[0] / 1.5) + square((x[1] + 1.0) / 1.5) + square((x[2] + 1.5) / 1.5));
-    return prior + 0.5 * factor.matrixL().solve(asked.targets).squaredNorm() +
-           static_cast<double>(asked.targets.cols()) * lower.diagonal().array().log().sum();
+    return prior + 0.5 * factor.matrixL().solve(own.targets).squaredNorm() +
+           static_cast<double>(own.targets.cols()) * lower.diagonal().array().log().sum();
   };
   std::vector<double> x = {0.0, -1.0, -1.5};
   if (at.size() >= 5) {
@@ -201,7 +201,7 @@ void FractureSurface::learn() {
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
     }
-    // A run that failed says nothing: the mean of the others stands there.
+    // A run that failed does not count: the mean of the others takes its place.
     for (Eigen::Index k = 0; k < count; ++k)
       if (std::isnan(values(k, static_cast<Eigen::Index>(r))))
         values(k, static_cast<Eigen::Index>(r)) = known > 0 ? sum / known : 0.0;
@@ -218,7 +218,7 @@ void FractureSurface::learn() {
   });
 }
 
-/// What the testing machine changes in every row: on the curves of the runs nearest to the point, averaged.
+/// Change by the testing machine in every row: on the curves of the runs nearest to the point, averaged.
 Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& set, const SurfacePoint& at) const {
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -2,9 +2,9 @@
 // Features of fracture tests as functions of the parameters, learnt from runs around a fit: a fracture costs a second,
 // a bootstrap asks for thousands.
 //
-// Per feature one covariance for all groups: an offset, a linear and a curved part over the logarithms of eta, one part
-// per effect that vanishes where the effect does, and noise: a crack jumps from one way to another. Effects of the
-// machine need no emulator: they are applied to the curves of the nearest runs.
+// Gaussian processes: per feature one covariance for all groups, an offset, a linear and a curved part over the
+// logarithms of eta, one part per effect that vanishes where the effect does, and noise: a crack jumps from one path to
+// another. Effects of the machine need no emulator: they are applied to the curves of the nearest runs.
 
 #include <Eigen/Dense>
 #include <map>
@@ -21,7 +21,7 @@ struct SurfaceRow {
   Feature feature = Feature::log_toughness;
 };
 
-/// Covariance of what one effect changes, between two points given by its strengths (-1 to 1; further parameters
+/// Covariance of the changes by one effect, between two points given by its strengths (-1 to 1; further parameters
 /// behind): zero without the effect, linear and curved in its size.
 double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
@@ -35,7 +35,7 @@ class FractureSurface {
   const std::vector<SurfaceRow>& rows() const { return rows_; }
   /// Features at a parameter set, measurement side included, one per row().
   Eigen::VectorXd predict(const material::ParameterSet& set) const;
-  /// What the machine adds from one batch to the next, averaged over the groups.
+  /// Change by the machine from one batch to the next, averaged over the groups.
   FeatureValues batch_step(const material::ParameterSet& set) const;
   /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre.
   const Eigen::VectorXd& cross_validated_variance() const { return variance_; }
@@ -58,7 +58,7 @@ class FractureSurface {
   SurfacePoint point_of(const material::ParameterSet& set) const;
   static double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b);
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
-  /// The most probable amplitudes for what the runs of the base model say; targets are of unit spread.
+  /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
   std::vector<int> half_nearest_to_the_centre() const;
   Learnt learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values);

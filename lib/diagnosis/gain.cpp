@@ -4,34 +4,39 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+
 namespace nacre::diagnosis {
 namespace {
 
 constexpr int kFolds = 5;
 constexpr int kIntervalDraws = 2000;
 
-struct Refit {
+struct LinearRefit {
   double chi2 = 0.0;
   Eigen::VectorXd delta;
 };
 
-Refit refit(const FittedModel& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y,
-            const Whitener& whitener) {
-  Refit result;
+LinearRefit refit(const FittedModel& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y,
+                  const Whitener& whitener) {
+  LinearRefit result;
   result.chi2 = linear_refit(fit.restricted(rows), y(rows), whitener, &result.delta);
   return result;
 }
 
-/// All rows by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
-Eigen::VectorXd predicted_from(const Observations& observations, const FittedModel& fit, const Refit& refit,
+/// Predictions of all rows by a model refitted to `rows`, with the shared discretisation error expected from those
+/// rows.
+Eigen::VectorXd predicted_from(const Observations& observations, const FittedModel& fit, const LinearRefit& refit,
                                const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
   const Eigen::VectorXd residuals = observations.values - model;
   return model + observations.shared_discretisation(residuals(rows), rows);
 }
 
-/// Whether the figure of the whole is that of coupons: there are no layouts, or none of these effects acts on the tests
-/// of layouts that there are. Without effects layouts count where there are any.
+/// Whether the overall figure is that of coupons: there are no layouts, or none of these effects acts on the tests of
+/// layouts that there are. Without effects layouts count where there are any.
 bool coupons_count(const Observations& observations, const std::vector<std::string>& effects) {
   const auto tests_of_layouts = [&](tester::TestKind test) {
     return std::any_of(observations.groups.begin(), observations.groups.end(),
@@ -47,8 +52,8 @@ bool coupons_count(const Observations& observations, const std::vector<std::stri
   return !((modulus || toughness) && layouts_change);
 }
 
-/// Rows whose errors count for the figure of the whole: moduli and toughness; of coupons slopes and stresses.
-bool counts(const Row& row, bool coupons) {
+/// Rows whose errors count for the overall figure: moduli and toughness; of coupons slopes and stresses.
+bool counts(const DataRow& row, bool coupons) {
   const bool tensile = row.test == tester::TestKind::tensile;
   if (!coupons) return !tensile && (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
   return tensile && (row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 ||
@@ -84,11 +89,11 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
     for (Eigen::Index row = 0; row < y.size(); ++row)
       if (!held[row]) train.push_back(row);
     const Whitener whitener(covariance(train, train));
-    const Refit plain = refit(base, train, y, whitener);
+    const LinearRefit plain = refit(base, train, y, whitener);
     const FittedModel* chosen = &base;
-    Refit chosen_refit = plain;
+    LinearRefit chosen_refit = plain;
     for (const FittedModel& model : models) {
-      const Refit own = refit(model, train, y, whitener);
+      const LinearRefit own = refit(model, train, y, whitener);
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - least_drop) chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
@@ -99,15 +104,15 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
   return result;
 }
 
-/// What is held out together: a layout with its twins, coupons of one material pulled at one rate. A whole material
-/// would take its own constants with it, which no other tells.
+/// The key of groups that are held out together: a layout with its twins, coupons of one material pulled at one rate.
+/// Without a whole material its constants would be undetermined.
 std::string held_out_with(const Observation& group) {
   const std::string name = group.design.name();
   return group.test == tester::TestKind::tensile ? fmt::format("{} {}", name, group.conditions.strain_rate_per_s)
                                                  : name;
 }
 
-/// The rows that are held out together, dealt by a seeded shuffle.
+/// The rows that are held out together, in an order shuffled by the seed.
 std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& observations, std::uint64_t seed) {
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   for (int i = 0; i < observations.size(); ++i)
@@ -120,7 +125,7 @@ std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& obse
   return designs;
 }
 
-/// Reduction of the error, with its interval from designs drawn anew.
+/// Reduction of the error, with its interval from a bootstrap over designs.
 void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uint64_t seed) {
   std::vector<std::size_t> all(errors.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -138,8 +143,8 @@ void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uin
 }
 
 /// Rows of one feature of layouts, under tests of one kind and the same conditions.
-bool same_contest(const Observations& observations, int a, int b) {
-  const Row &one = observations.rows[a], &other = observations.rows[b];
+bool are_comparable(const Observations& observations, int a, int b) {
+  const DataRow &one = observations.rows[a], &other = observations.rows[b];
   if (one.group < 0 || other.group < 0 || one.feature != other.feature || one.test != other.test) return false;
   const Observation &g = observations.group_of(a), &h = observations.group_of(b);
   return g.design.layout() && h.design.layout() && g.conditions == h.conditions;
@@ -154,10 +159,10 @@ Ranking ranking_by(Feature feature, const Observations& observations, const Held
     return (y[a] > y[b]) == (y[a] - errors[a] > y[b] - errors[b]);
   };
   for (int b = 1; b < observations.size(); ++b) {
-    const Row& row = observations.rows[b];
+    const DataRow& row = observations.rows[b];
     if (row.feature != feature) continue;
     for (int a = 0; a < b; ++a) {
-      if (!same_contest(observations, a, b)) continue;
+      if (!are_comparable(observations, a, b)) continue;
       const double weight = observations.rows[a].weight + row.weight;
       const double error = observations.replicate_sd(feature, row.test) * std::sqrt(weight);
       if (std::abs(y[a] - y[b]) < kSetApart * error) continue;
@@ -170,11 +175,11 @@ Ranking ranking_by(Feature feature, const Observations& observations, const Held
 }
 
 std::vector<FeatureGain> gain_by_feature(const Observations& observations, const HeldOut& held) {
-  // A normal error of deviation s is 0.8 s large on average. What numerics share is in what was foretold.
+  // A normal error of deviation s is 0.8 s large on average. The shared discretisation error is in the predictions.
   const Eigen::VectorXd deviation = observations.own_variances().cwiseSqrt();
   std::map<Feature, std::pair<FeatureGain, int>> by_feature;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
+    const DataRow& row = observations.rows[i];
     if (row.group < 0) continue;
     auto& [sums, count] = by_feature[row.feature];
     sums.feature = row.feature;

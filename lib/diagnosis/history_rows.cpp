@@ -78,7 +78,7 @@ Regressor of_batches(const std::vector<Deviation>& deviations, Value value) {
   return numbers;
 }
 
-/// The slope over batches, and what single batches differ by beside it.
+/// The slope over batches, and the differences of single batches from it.
 void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>& deviations, Feature feature,
                     tester::TestKind test) {
   constexpr double kLeast = 1e-6;
@@ -101,13 +101,13 @@ void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>&
   for (std::size_t k = 0; k < regressors.size(); ++k) {
     const Eigen::VectorXd& x = regressors[k];
     const double squares = x.squaredNorm();
-    HistoryRow history{Row{.group = -1,
-                           .feature = feature,
-                           .probe = k == 0 ? Probe::batch : Probe::batch_rest,
-                           .test = test,
-                           .weight = 1.0 / squares,
-                           .scatter = 0,
-                           .batch = numbers[k]},
+    HistoryRow history{DataRow{.group = -1,
+                               .feature = feature,
+                               .kind = k == 0 ? RowKind::batch : RowKind::batch_rest,
+                               .test = test,
+                               .weight = 1.0 / squares,
+                               .scatter = 0,
+                               .batch = numbers[k]},
                        x.dot(values) / squares,
                        {}};
     for (const auto& [batch, own] : members) history.of_batches[batch] = x.dot(own) / squares;
@@ -127,7 +127,7 @@ std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& g
       const auto [x, y] = centred(deviations, order, feature);
       if (y.size() < kFewest || x.squaredNorm() < 1e-6) continue;
       rows.push_back(
-          {Row{-1, feature, Probe::print_order, test, 1.0 / x.squaredNorm()}, x.dot(y) / x.squaredNorm(), {}});
+          {DataRow{-1, feature, RowKind::print_order, test, 1.0 / x.squaredNorm()}, x.dot(y) / x.squaredNorm(), {}});
     }
   }
   return rows;

@@ -1,4 +1,5 @@
 #pragma once
+// Least-squares slopes of features over batches and print order, within groups of replicates.
 
 #include <map>
 #include <string>
@@ -8,17 +9,17 @@
 
 namespace nacre::diagnosis {
 
-/// What replicates of one group say of the time at which they were printed and tested.
+/// Dependence of a feature on when specimens were printed and tested, between replicates of one group.
 struct HistoryRow {
-  Row row;
+  DataRow row;
   double value = 0.0;  ///< change of the feature per batch step, or per specimen printed within a batch
-  std::map<std::string, double> of_batches;  ///< value that one batch brings about, being off by 1; not of print order
+  std::map<std::string, double> of_batches;  ///< value if one batch is off by 1 and nothing else; not of print order
 };
 
 /// Slopes of log E, log T and log peak stress over batches and over print order, by least squares on deviations from
-/// the groups' means: independent of those means, so that they add to what designs say. Then how far single batches lie
-/// off the slope, each freed of the slope and of the batches before it. Only where replicates of one group differ in
-/// them.
+/// the groups' means: independent of those means, so that they add information to those of designs. Then how far single
+/// batches lie off the slope, each freed of the slope and of the batches before it. Only where replicates of one group
+/// differ in them.
 std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups);
 
 }  // namespace nacre::diagnosis

@@ -28,7 +28,8 @@ IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimen
   const bool homogeneous_left_out = layouts && !coupons;
   if (homogeneous > 0 && homogeneous_left_out)
     part.left_out = fmt::format(
-        " {} moduli of homogeneous specimens were left out: without tensile coupons they say nothing of layouts.",
+        " {} moduli of homogeneous specimens were left out: without tensile coupons they carry no information on "
+        "layouts.",
         homogeneous);
   const bool something_else =
       coupons || std::ranges::any_of(specimens, is_layout_modulus) || (homogeneous > 0 && !homogeneous_left_out);
@@ -38,8 +39,7 @@ IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimen
   std::erase_if(part.specimens, is_fracture);
   if (valid > 0)
     part.left_out += fmt::format(
-        " {} toughness specimens were left out: what acts on fracture alone is not looked for (--fracture takes them "
-        "in).",
+        " {} toughness specimens were left out, and with them effects on fracture alone (--fracture includes both).",
         valid);
   return part;
 }

@@ -1,4 +1,5 @@
 #pragma once
+// Which specimens a diagnosis includes.
 
 #include <string>
 #include <vector>
@@ -7,15 +8,15 @@
 
 namespace nacre::diagnosis {
 
-/// What takes part in a diagnosis, and what is to be said of the rest.
+/// The specimens of a diagnosis, and a sentence on the rest.
 struct IncludedSpecimens {
   std::vector<measurement::SpecimenRecord> specimens;
   std::string left_out;  ///< sentences with a space in front; empty: nothing is
 };
 
-/// Fracture tests take part when `fracture` asks for them, or when no valid specimen would take part beside them: their
-/// thresholds are not yet proven against the virtual laboratory. Of homogeneous moduli that observe() leaves out it is
-/// said that they are.
+/// Fracture tests are included when `fracture` asks for them, or when no other valid specimen would be: their
+/// thresholds are not yet proven against the virtual laboratory. A sentence says when observe() leaves homogeneous
+/// moduli out.
 IncludedSpecimens included_specimens(const std::vector<measurement::SpecimenRecord>& specimens, bool fracture);
 
 }  // namespace nacre::diagnosis

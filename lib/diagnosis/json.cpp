@@ -1,7 +1,7 @@
+#include "diagnosis/json.hpp"
+
 #include <nlohmann/json.hpp>
 #include <span>
-
-#include "diagnosis/diagnosis.hpp"
 
 namespace nacre::diagnosis {
 
@@ -103,7 +103,7 @@ ordered_json by_name(std::span<const double> values, std::span<const std::string
   return object;
 }
 
-/// Constants of the kinds of specimens that took part, by name.
+/// Constants of the kinds of specimens that were included, by name.
 ordered_json json_of(const FittedConstants& fit) {
   ordered_json object = ordered_json::object();
   if (fit.modulus) object["modulus"] = by_name(to_vector(*fit.modulus), material::modulus_parameter_names());

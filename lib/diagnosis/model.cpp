@@ -14,7 +14,7 @@ namespace {
 
 using tester::TestKind;
 
-/// What stands for a feature that the model does not show: no toe, no set, and the way back as steep as the way up.
+/// Value of a feature that the model does not show: no toe, no set, and the way back as steep as the way up.
 double unshown(const FeatureValues& values, Feature feature) {
   return feature == Feature::log_unloading ? value_of(values, Feature::log_tangent_30).value_or(0.0) : 0.0;
 }
@@ -120,7 +120,7 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
   FeatureValues values = tensile_features(coupon_curve(g, set));
-  if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: of stresses that says nothing
+  if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: no information on stresses
     material::ParameterSet without = set;
     without.extensions.erase("toe_slack");
     values = tensile_features(coupon_curve(g, without));
@@ -131,18 +131,18 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   }
 }
 
-/// What the machine adds to a feature from one batch to the next; with single batches, and with the order inside a
-/// batch, no effect goes.
+/// Change of a feature by the machine from one batch to the next; no effect depends on single batches or on the order
+/// inside a batch.
 void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   for (int i = 0; i < observations_.size(); ++i) {
-    const Row& row = observations_.rows[i];
-    if (row.probe == Probe::mean) continue;
+    const DataRow& row = observations_.rows[i];
+    if (row.kind == RowKind::mean) continue;
     rows[i] = 0.0;
-    if (row.probe != Probe::batch || set.extensions.empty()) continue;
+    if (row.kind != RowKind::batch || set.extensions.empty()) continue;
     if (row.test == TestKind::toughness && surface_ != nullptr)
       rows[i] = value_of(surface_->batch_step(set), row.feature).value_or(0.0);
     if (row.test == TestKind::toughness) continue;
-    // A stiffness in the middle of those that are printed stands for all: the machine's own spring makes the slope
+    // One stiffness in the middle of those that are printed serves for all: the machine's own spring makes the slope
     // depend on it a little.
     constexpr double kTypicalPa = 5e8;
     rows[i] = std::log(measurement::observe_modulus(kTypicalPa, set.extensions, {.batch_step = 1.0}) /

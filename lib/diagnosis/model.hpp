@@ -1,4 +1,5 @@
 #pragma once
+// The forward model f(u): features of every row as a function of the coordinates of a fit.
 
 #include <Eigen/Dense>
 #include <memory>
@@ -21,7 +22,7 @@ namespace nacre::diagnosis {
 class FeatureModel {
  public:
   /// `observations` must outlive the model; `surface` may learn more while the model lives; without one fracture rows
-  /// are foretold as 0.
+  /// are predicted as 0.
   FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
                const FractureSurface* surface = nullptr);
   const Basis& basis() const { return basis_; }
@@ -38,8 +39,8 @@ class FeatureModel {
   /// `predicted`: the rows at u. Moduli of layouts need one solution each for all coordinates (tester::ModulusProbe).
   Eigen::MatrixXd slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted,
                          double step) const;
-  /// log E on elements of size h/2 less log E on the tester's elements, measurement side included; 0 in rows that are
-  /// no modulus of a layout. Not remembered.
+  /// log E(h/2) - log E(h): refined mesh less the tester's, measurement side included; 0 in rows that are no modulus of
+  /// a layout. Not remembered.
   Eigen::VectorXd mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const;
   /// The curve of a coupon through the machine, along the strains that were measured. Throws std::runtime_error.
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
@@ -71,12 +72,12 @@ class FeatureModel {
   mutable std::vector<LastProbe> last_;  ///< per group
 };
 
-/// The curve of a homogeneous coupon through the machine, at the strains that the machine records (or is to run
-/// through). The error: what the tensile tester says of a coupon that cannot be pulled so.
+/// The curve of a homogeneous coupon as the machine records it, at the strains that it records (or is to run through).
+/// The error: why the coupon cannot be pulled so.
 Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, const std::vector<double>& shown_strain,
                                              const measurement::PrintContext& context = {});
 
-/// Blocks of base constants that these observations need, in `ranges`; what is not searched from `start`.
+/// Blocks of base constants that these observations need, in `ranges`; constants that are not searched from `start`.
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
                 const material::ParameterRanges& ranges);
 

@@ -62,8 +62,8 @@ FeatureValues features_of(const SpecimenRecord& specimen) {
   return values;
 }
 
-/// Whether a specimen's kind takes part.
-bool belongs(const SpecimenRecord& specimen, bool homogeneous_moduli) {
+/// Whether specimens of this kind are included.
+bool is_included(const SpecimenRecord& specimen, bool homogeneous_moduli) {
   if (!specimen.valid) return false;
   switch (specimen.test) {
     case TestKind::modulus:
@@ -106,7 +106,7 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   }
   if (with_order > 0) group.print_order /= with_order;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
-    // A feature that one replicate lacks says nothing of the group: groups of one kind are then alike.
+    // A feature that one replicate lacks is left out of the group, so that groups of one kind have the same features.
     double sum = 0.0;
     const bool all =
         std::all_of(replicates.begin(), replicates.end(), [f](const Measured& m) { return m.features[f].has_value(); });
@@ -128,8 +128,8 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
   std::map<std::tuple<tester::TestKind, Feature, std::string>, Eigen::VectorXd> by_batch;
   std::set<std::pair<tester::TestKind, Feature>> with_rest;
   for (std::size_t k = 0; k < history.size(); ++k) {
-    const Row& row = history[k].row;
-    if (row.probe == Probe::batch_rest) with_rest.emplace(row.test, row.feature);
+    const DataRow& row = history[k].row;
+    if (row.kind == RowKind::batch_rest) with_rest.emplace(row.test, row.feature);
     for (const auto& [batch, value] : history[k].of_batches) {
       Eigen::VectorXd& rows = by_batch[{row.test, row.feature, batch}];
       if (rows.size() == 0) rows = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(row_count));
@@ -146,19 +146,19 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
 
 double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
 
-/// Correlations of one covariance, variances of another. Few replicates tell how much one material scatters, not how
-/// its features go together: combinations of features that seem not to scatter would count for everything.
+/// Correlations of one covariance, variances of another. Few replicates determine how much one material scatters, not
+/// how its features correlate: combinations of features that seem not to scatter would count for everything.
 Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
   const Eigen::VectorXd scale = (own.diagonal().array() / all.diagonal().array()).sqrt();
   return scale.asDiagonal() * all * scale.asDiagonal();
 }
 
-/// Scatter of every test, and of each material's coupons where their replicates say enough of it.
+/// Scatter of every test, and of each material's coupons where their replicates determine it.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
   for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t));
   std::map<std::string, std::size_t> own;
-  for (Row& row : observations.rows) {
+  for (DataRow& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
     if (row.group < 0 || row.test != TestKind::tensile) continue;
     const std::string material = observations.groups[row.group].material();
@@ -179,7 +179,8 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
 
 Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
   if (!covariance.allFinite() || factor_.info() != Eigen::Success)
-    throw std::runtime_error("the covariance of the data is not positive definite");
+    throw std::runtime_error(
+        "the covariance of the data is not positive definite: no statement about them is possible");
 }
 
 Whitener Whitener::independent(const Eigen::VectorXd& standard_deviations) {
@@ -201,15 +202,15 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
 }
 
 RowCovariance Observations::row_covariance(int i, int j) const {
-  const Row &a = rows[i], &b = rows[j];
+  const DataRow &a = rows[i], &b = rows[j];
   RowCovariance covariance;
-  if (a.test != b.test || a.probe != b.probe) return covariance;
+  if (a.test != b.test || a.kind != b.kind) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
   if (a.group == b.group && a.batch == b.batch)
     covariance.scatter =
         std::min(a.weight, b.weight) *
         scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
-  if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) return covariance;
+  if (a.kind != RowKind::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) return covariance;
   const bool same = group_of(i).design == group_of(j).design;
   if (a.test == TestKind::modulus && same) covariance.fixed = discretisation_sd * discretisation_sd;
   if (a.test == TestKind::toughness)
@@ -256,7 +257,7 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
   double last_batch_step = 0.0;
   for (const SpecimenRecord& specimen : nominal) {
-    if (!belongs(specimen, homogeneous_moduli)) continue;
+    if (!is_included(specimen, homogeneous_moduli)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
     const double step = contexts[&specimen - nominal.data()].batch_step;
@@ -288,7 +289,7 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     for (std::size_t f = 0; f < kFeatureCount; ++f) {
       if (!group.features[f]) continue;
       observations.rows.push_back(
-          {static_cast<int>(g), static_cast<Feature>(f), Probe::mean, group.test, 1.0 / group.replicates});
+          {static_cast<int>(g), static_cast<Feature>(f), RowKind::mean, group.test, 1.0 / group.replicates});
       values.push_back(*group.features[f]);
     }
   }

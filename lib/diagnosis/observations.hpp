@@ -1,4 +1,5 @@
 #pragma once
+// The data of a diagnosis as rows with covariance: scatter / replicates + discretisation error + emulator error.
 
 #include <Eigen/Dense>
 #include <array>
@@ -26,8 +27,8 @@ struct Observation {
   std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
 
-/// Where a row of the data comes from.
-enum class Probe {
+/// Which statistic of the specimens a row is.
+enum class RowKind {
   mean,         ///< mean of a feature over a group's replicates
   batch,        ///< change of a feature per batch step between replicates of one group, over all groups
   batch_rest,   ///< how far one batch lies off that change, again between replicates of one group
@@ -35,17 +36,17 @@ enum class Probe {
 };
 
 /// One row of the data.
-struct Row {
-  int group = -1;  ///< index of the group; -1 with probes of history, which join all groups
+struct DataRow {
+  int group = -1;  ///< index of the group; -1 with rows of history, which join all groups
   Feature feature = Feature::log_modulus;
-  Probe probe = Probe::mean;
+  RowKind kind = RowKind::mean;
   tester::TestKind test = tester::TestKind::modulus;
   double weight = 1.0;      ///< variance of the row over that of a single specimen: 1/replicates of a mean
-  std::size_t scatter = 0;  ///< how its replicates scatter: index in Observations::scatter
+  std::size_t scatter = 0;  ///< the scatter of its replicates: index in Observations::scatter
   int batch = 0;            ///< with batch_rest: which batch, in the order of their numbers
 };
 
-/// What one batch, all of whose specimens have a feature larger by one, adds to the rows of history.
+/// Change of the rows of history if all specimens of one batch have a feature larger by one.
 struct BatchOffset {
   std::string batch;
   Feature feature = Feature::log_modulus;
@@ -79,7 +80,7 @@ class Whitener {
   Eigen::VectorXd scale_;  ///< inverse standard deviations of independent rows; empty: the factor counts
 };
 
-/// How replicates of one kind scatter: pooled over its groups, correlations shrunk towards none.
+/// Scatter of replicates of one kind: pooled over its groups, correlations shrunk towards none.
 struct ReplicateScatter {
   Eigen::MatrixXd covariance;  ///< features x features
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
@@ -89,13 +90,12 @@ struct ReplicateScatter {
 /// Factors on the replicate variances, in the order of Observations::scatter.
 using ScatterFactors = std::vector<double>;
 
-/// The covariance of two rows, taken apart: what scatters between replicates, and the rest.
+/// The covariance of two rows, split: scatter between replicates, and the rest.
 struct RowCovariance {
   double fixed = 0.0, scatter = 0.0;
 };
 
-/// The same of all rows. Rows of different scatter
-/// are independent in both parts.
+/// The same of all rows. Rows of different scatter are independent in both parts.
 struct CovarianceParts {
   Eigen::MatrixXd fixed;
   Eigen::MatrixXd scatter;
@@ -105,15 +105,15 @@ struct CovarianceParts {
 /// of history.
 struct Observations {
   std::vector<Observation> groups;
-  std::vector<Row> rows;
+  std::vector<DataRow> rows;
   Eigen::VectorXd values;  ///< per row
   /// By TestKind, and behind them coupons of one material each: soft ones are pulled farther than rigid ones, and
   /// scatter otherwise.
   std::vector<ReplicateScatter> scatter = std::vector<ReplicateScatter>(3);
   double discretisation_sd = 0.0;                  ///< per layout, of log E, independent between layouts
   FractureDiscretisation fracture_discretisation;  ///< the same of the features of a fracture test
-  Eigen::MatrixXd discretisation_shared;           ///< rows x directions: what numerics leave along each, one standard
-                                                   ///< deviation; may be empty
+  Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
+                                                   ///< standard deviation; may be empty
   Eigen::VectorXd emulator_variance;               ///< per row; empty: none
   int disconnected_batches = 0;  ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;  ///< of all specimens; 0: there is one batch, or none is known
@@ -125,8 +125,8 @@ struct Observations {
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
   int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
-  /// Covariance of two rows, but for the shared directions and the emulator. What two numerics differ by is the same
-  /// for all specimens of one layout under one test: rotated twins share it.
+  /// Covariance of two rows, but for the shared directions and the emulator. The discretisation error is the same for
+  /// all specimens of one layout under one test: rotated twins share it.
   RowCovariance row_covariance(int i, int j) const;
   /// Covariance of the rows. Along the shared directions all rows go together.
   CovarianceParts covariance_parts() const;
@@ -134,10 +134,11 @@ struct Observations {
     const CovarianceParts parts = covariance_parts();
     return parts.fixed + parts.scatter;
   }
-  /// Variances of the rows but for what numerics share among them, which predictions take in (shared_discretisation()).
+  /// Variances of the rows but for the discretisation error that they share, which predictions contain
+  /// (shared_discretisation()).
   Eigen::VectorXd own_variances() const;
-  /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given
-  /// these residuals at `rows`; for all rows.
+  /// The expected discretisation error along the shared directions, given residuals (measured - predicted) at `rows`;
+  /// for all rows.
   Eigen::VectorXd shared_discretisation(const Eigen::VectorXd& residuals_at_rows,
                                         const std::vector<Eigen::Index>& rows) const;
 };
@@ -148,7 +149,7 @@ struct Observations {
 Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_discretisation_sd,
                      const FractureDiscretisation& fracture);
 
-/// How most upright specimens of a test are tested; as by default where there are none.
+/// The conditions of most upright specimens of a test; the default where there are none.
 tester::TestConditions usual_conditions(const Observations& observations, tester::TestKind test);
 
 }  // namespace nacre::diagnosis

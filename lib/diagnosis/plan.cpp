@@ -23,13 +23,13 @@ using measurement::SpecimenRecord;
 using tester::TestKind;
 
 constexpr int kAddedReplicates = 3;
-/// Shares of an effect's range at which a plan looks for the smallest that shows: closer than those of a diagnosis,
-/// since flow and its like leave nothing at all until they begin.
+/// Shares of an effect's range at which a plan searches for the smallest visible one: closer than those of a diagnosis,
+/// since flow and effects like it have no signature at all until they begin.
 constexpr double kPlannedSizes[] = {0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.45, 0.6};
 constexpr int kPlannedTypical = 6;  ///< the typical size of a diagnosis among them
 static_assert(kPlannedSizes[kPlannedTypical] == kSizes[kTypicalSize]);
 
-/// What the specimens would show if the start parameters were the truth: values for whatever they lack.
+/// Values for specimens that have none: those of the start parameters.
 void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
   sysid::LocalSimulator simulator(settings.fidelity, settings.threads, settings.store);
   std::vector<measurement::Replicates> notched;
@@ -60,11 +60,11 @@ void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& se
   for (std::size_t i = 0; i < items.size(); ++i) items[i] = i;
   material::ParameterSet start = settings.start;
   start.extensions.clear();
-  const auto answers = simulator.simulate(notched, {{"planned", start, false, true, items}});
+  const auto predictions = simulator.simulate(notched, {{"planned", start, false, true, items}});
   for (std::size_t i = 0; i < of.size(); ++i) {
-    of[i]->toughness_pa = answers[0][i].toughness_pa;
-    of[i]->curve = answers[0][i].curve;
-    of[i]->valid = answers[0][i].toughness_pa.has_value();
+    of[i]->toughness_pa = predictions[0][i].toughness_pa;
+    of[i]->curve = predictions[0][i].curve;
+    of[i]->valid = predictions[0][i].toughness_pa.has_value();
   }
 }
 
@@ -84,7 +84,7 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   return specimen;
 }
 
-/// What a person calls the bundle that a test belongs to.
+/// The bundle that a test belongs to, in words.
 std::string bundle_of(const PossibleTest& test) {
   switch (test.kind) {
     case AddedTest::checkerboard:
@@ -99,21 +99,22 @@ std::string bundle_of(const PossibleTest& test) {
   return fmt::format("{}, {} tests", test.words, tester::to_string(test.test));
 }
 
-/// Tests that a person would order together, by what they are called.
+/// Tests that a person would order together, by the name of their bundle.
 std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations) {
   constexpr std::size_t kMost = 3;
   std::map<std::string, std::vector<PossibleTest>> result;
   for (const PossibleTest& test : possible_tests(observations)) {
     const bool twin = test.kind == AddedTest::twin;
-    if (!twin && test.test == TestKind::toughness) continue;  // the same as a modulus says, for more
+    if (!twin && test.test == TestKind::toughness) continue;  // a modulus gives the same information for less
     auto& tests = result[bundle_of(test)];
     if (!twin || tests.size() < kMost) tests.push_back(test);
   }
   return result;
 }
 
-/// Signatures of all acting effects over all rows, base and covariance: what every subset of rows is judged by.
-struct Sheet {
+/// The design matrix of the linear model: derivatives of all rows by the base constants (base.jacobian) and signatures
+/// of all acting effects, with the covariance of the rows. Every subset of rows is judged by its part of it.
+struct DesignMatrix {
   const Observations& observations;
   FittedModel base;
   Eigen::MatrixXd covariance;
@@ -121,7 +122,7 @@ struct Sheet {
 };
 
 /// Base and covariance at the start parameters, with the scatter that is assumed.
-Sheet sheet_of(Workbench& workbench, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+DesignMatrix design_matrix_of(Workbench& workbench, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
   Observations& observations = workbench.observations();
   for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
   const CoordinateMap map = workbench.model().base_map();
@@ -133,14 +134,14 @@ Sheet sheet_of(Workbench& workbench, const DiagnosisSettings& settings, const As
   return {observations, std::move(base), observations.covariance()};
 }
 
-/// Without a search for the constants: those that are given stand for the truth.
+/// Without a search for the constants: those that are given are the truth.
 DiagnosisSettings as_given(DiagnosisSettings settings) {
   settings.search_budget = 0;
   return settings;
 }
 
-/// Coupons of both read as far as the shorter curve goes: how far somebody pulled is no trace of a cause.
-void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenRecord>& changed) {
+/// Cuts coupons of both at the end of the shorter curve: how far somebody pulled is no signature of a cause.
+void cut_at_common_strain(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenRecord>& changed) {
   for (std::size_t i = 0; i < std::min(specimens.size(), changed.size()); ++i) {
     tester::Curve &one = specimens[i].curve, &other = changed[i].curve;
     if (specimens[i].test != TestKind::tensile || one.empty() || other.empty() || is_unloaded(one)) continue;
@@ -151,52 +152,53 @@ void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenReco
 }
 
 /// Signatures of all effects in some rows, whitened and projected off what the base imitates there; zero where the
-/// effect would not be looked for on these rows alone.
+/// effect would be no candidate on these rows alone.
 struct PlannedSignatures {
   std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
   std::vector<double> absorption;          ///< at a typical size
 };
 
-PlannedSignatures planned_signatures_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
-  const FittedModel base = sheet.base.restricted(rows);
-  const Whitener whitener(sheet.covariance(rows, rows));
-  PlannedSignatures traces;
+PlannedSignatures planned_signatures_of(const DesignMatrix& matrix, const std::vector<Eigen::Index>& rows) {
+  const FittedModel base = matrix.base.restricted(rows);
+  const Whitener whitener(matrix.covariance(rows, rows));
+  PlannedSignatures planned;
   const auto sizes = static_cast<Eigen::Index>(std::size(kPlannedSizes));
-  for (const Signature& signature : sheet.signatures) {
+  for (const Signature& signature : matrix.signatures) {
     Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, sizes));
     const Eigen::VectorXd most = signature.changes.leftCols(sizes).cwiseAbs().rowwise().maxCoeff();
-    if (!has_signature(*material::find_effect(signature.effect), most, sheet.observations, rows)) changes.setZero();
-    traces.projected.push_back(projected_signatures(base, changes, whitener));
-    traces.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
+    if (!has_signature(*material::find_effect(signature.effect), most, matrix.observations, rows)) changes.setZero();
+    planned.projected.push_back(projected_signatures(base, changes, whitener));
+    planned.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
   }
-  return traces;
+  return planned;
 }
 
-/// What a diagnosis would make of effect k at every size: signal, distance to the nearest rival of typical size.
-PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const PlannedSignatures& traces, std::size_t k) {
+/// Effect k as a diagnosis would judge it at every size: signal, distance to the nearest rival of typical size.
+PlannedEffect judged(PlannedEffect planned, const DesignMatrix& matrix, const PlannedSignatures& signatures,
+                     std::size_t k) {
   std::vector<double> signals, distance;
   for (std::size_t i = 0; i < std::size(kPlannedSizes); ++i) {
-    const auto own = traces.projected[k].col(static_cast<Eigen::Index>(i));
+    const auto own = signatures.projected[k].col(static_cast<Eigen::Index>(i));
     double nearest = 0.0;
     std::string rival;
-    for (std::size_t j = 0; j < traces.projected.size(); ++j) {
-      const auto other = traces.projected[j].col(kPlannedTypical);
+    for (std::size_t j = 0; j < signatures.projected.size(); ++j) {
+      const auto other = signatures.projected[j].col(kPlannedTypical);
       const double lengths = own.norm() * other.norm();
       if (j == k || lengths < 1e-6) continue;
       const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
-      if (cosine > nearest) nearest = cosine, rival = sheet.signatures[j].effect;
+      if (cosine > nearest) nearest = cosine, rival = matrix.signatures[j].effect;
     }
     signals.push_back(own.norm());
     distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
     if (i == kPlannedTypical) planned.nearest_rival = rival, planned.rival_cosine = nearest;
   }
-  planned.absorption = traces.absorption[k];
+  planned.absorption = signatures.absorption[k];
   planned.signal_to_noise = signals[kPlannedTypical];
   const material::EffectParameter& parameter = material::find_effect(planned.name)->parameters.front();
   const auto value = [&](const std::optional<double>& strength) {
     return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
   };
-  // As a diagnosis decides: a name needs traces that no look-alike leaves.
+  // As a diagnosis decides: a name needs a signature that no collinear effect imitates.
   const auto nameable = smallest_strength(kPlannedSizes, signals, kNameableSignal),
              apart = smallest_strength(kPlannedSizes, distance, kToldApart);
   planned.smallest_seen = value(smallest_strength(kPlannedSizes, signals, kVisibleSignal));
@@ -216,9 +218,9 @@ std::vector<Observation> groups_in(const Observations& observations, const std::
 }
 
 /// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
-std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
-  const bool enough = !why_too_few(groups_in(sheet.observations, rows));
-  const PlannedSignatures traces = planned_signatures_of(sheet, rows);
+std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<Eigen::Index>& rows) {
+  const bool enough = !why_too_few(groups_in(matrix.observations, rows));
+  const PlannedSignatures signatures = planned_signatures_of(matrix, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
     PlannedEffect planned;
@@ -226,10 +228,10 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
     planned.family = effect.family;
     planned.unit = effect.parameters.front().unit;
     planned.status = "not_shown";
-    const auto found = std::ranges::find(sheet.signatures, effect.name, &Signature::effect);
-    const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
-    const bool shown = enough && found != sheet.signatures.end() && traces.projected[k].norm() >= 1e-6;
-    effects.push_back(shown ? judged(std::move(planned), sheet, traces, k) : std::move(planned));
+    const auto found = std::ranges::find(matrix.signatures, effect.name, &Signature::effect);
+    const auto k = static_cast<std::size_t>(found - matrix.signatures.begin());
+    const bool shown = enough && found != matrix.signatures.end() && signatures.projected[k].norm() >= 1e-6;
+    effects.push_back(shown ? judged(std::move(planned), matrix, signatures, k) : std::move(planned));
   }
   return effects;
 }
@@ -275,20 +277,20 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   fill_in(more, settings);
   all.insert(all.end(), more.begin(), more.end());
   Workbench workbench(all, as_given(settings));
-  Sheet sheet = sheet_of(workbench, settings, scatter);
-  const Observations& observations = sheet.observations;
-  sheet.signatures = signatures_on(workbench.model(), sheet.base, workbench.effects(), kPlannedSizes);
+  DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
+  const Observations& observations = matrix.observations;
+  matrix.signatures = signatures_on(workbench.model(), matrix.base, workbench.effects(), kPlannedSizes);
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i) {
-      const Row& row = observations.rows[i];
+      const DataRow& row = observations.rows[i];
       const auto is_planned = [&](const Observation& other) {
         const Observation& group = observations.group_of(i);
         return other.design == group.design && other.test == group.test && other.conditions == group.conditions &&
                other.unloaded == group.unloaded;
       };
-      const auto is = [&](const PossibleTest& test) { return answers(test, observations.group_of(i)); };
+      const auto is = [&](const PossibleTest& test) { return would_join(test, observations.group_of(i)); };
       if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is_planned) ||
           std::any_of(tests.begin(), tests.end(), is))
         rows.push_back(i);
@@ -299,9 +301,9 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   plan.specimens = static_cast<int>(specimens.size());
   plan.groups = static_cast<int>(alone.groups.size());
   plan.too_few = why_too_few(alone.groups).value_or("");
-  plan.effects = judge(sheet, rows_with({}));
+  plan.effects = judge(matrix, rows_with({}));
   for (const auto& [words, tests] : added) {
-    PlannedAddition addition = compare(words, tests, plan.effects, judge(sheet, rows_with(tests)));
+    PlannedAddition addition = compare(words, tests, plan.effects, judge(matrix, rows_with(tests)));
     if (!addition.changes.empty()) plan.additions.push_back(std::move(addition));
   }
   std::stable_sort(plan.additions.begin(), plan.additions.end(),
@@ -311,14 +313,14 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
 
 double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<SpecimenRecord> changed,
                         const DiagnosisSettings& settings, const AssumedScatter& scatter) {
-  read_alike(specimens, changed);
+  cut_at_common_strain(specimens, changed);
   Workbench workbench(specimens, as_given(settings));
-  const Sheet sheet = sheet_of(workbench, settings, scatter);
+  const DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
   const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_discretisation);
-  if (other.size() != sheet.observations.size())
+  if (other.size() != matrix.observations.size())
     throw InputError::format("the changed specimens show {} features, expected {}", other.size(),
-                             sheet.observations.size());
-  return signature_size(sheet.base, other.values - sheet.observations.values, Whitener(sheet.covariance)).projected;
+                             matrix.observations.size());
+  return signature_size(matrix.base, other.values - matrix.observations.values, Whitener(matrix.covariance)).projected;
 }
 
 std::string to_json(const Plan& plan) {

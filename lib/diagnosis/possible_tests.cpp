@@ -19,7 +19,7 @@ using tester::TestKind;
 
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr int kConditionTwins = 3;      // designs of a test that are also tested under other conditions
-constexpr double kCouponStrain = 0.02;  // said in the words of possible_tests()
+constexpr double kCouponStrain = 0.02;  // also in the words of possible_tests()
 
 /// Groups of layouts that are not coupons, those of most replicates first.
 std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
@@ -30,14 +30,14 @@ std::vector<const Observation*> layouts_most_measured_first(const Observations& 
   return groups;
 }
 
-/// A rate that nobody has measured at, from what is usual.
+/// A rate that was not measured yet.
 struct OtherRate {
   double strain_rate_per_s = 0.0;
   std::string_view words;  ///< "ten times as fast"
 };
 
-/// Ten times what is usual, and where measured rates lie far apart the middle of the widest gap: what relaxes in a time
-/// of its own shows between them.
+/// Ten times the usual rate, and where measured rates lie far apart the middle of the widest gap: relaxation with a
+/// time in between shows there.
 std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s) {
   constexpr double kFarApart = 100.0;
   std::vector<OtherRate> rates = {{kSecondRate * usual_per_s, "ten times as fast"}};
@@ -111,7 +111,7 @@ std::vector<double> unload_history() {
   return tester::strain_path(coupon_loading(), kStep);
 }
 
-bool answers(const PossibleTest& test, const Observation& group) {
+bool would_join(const PossibleTest& test, const Observation& group) {
   return test.test == group.test && test.design == group.design &&
          measurement::same_conditions(test.conditions, group.conditions) &&
          (test.test != TestKind::tensile || group.unloaded);
@@ -138,9 +138,9 @@ std::vector<PossibleTest> possible_tests(const Observations& observations) {
   std::vector<PossibleTest> left;
   for (PossibleTest& test : possible) {
     const bool measured =
-        std::ranges::any_of(observations.groups, [&](const Observation& g) { return answers(test, g); });
+        std::ranges::any_of(observations.groups, [&](const Observation& g) { return would_join(test, g); });
     const bool listed =
-        std::ranges::any_of(left, [&](const PossibleTest& other) { return answers(test, group_of(other, 1)); });
+        std::ranges::any_of(left, [&](const PossibleTest& other) { return would_join(test, group_of(other, 1)); });
     if (measured || listed) continue;
     left.push_back(std::move(test));
     if (observations.last_batch_step == 0.0) continue;

@@ -1,4 +1,5 @@
 #pragma once
+// Tests that a laboratory could add to a measurement set.
 
 #include <string>
 #include <vector>
@@ -8,10 +9,10 @@
 
 namespace nacre::diagnosis {
 
-/// What a test adds to those that are there.
+/// How a test differs from the measured ones.
 enum class AddedTest { twin, checkerboard, laminate, homogeneous };
 
-/// A specimen that could be made and tested, with what a person calls it.
+/// A specimen that could be made and tested, in words.
 struct PossibleTest {
   AddedTest kind = AddedTest::twin;
   pattern::Design design;
@@ -23,7 +24,7 @@ struct PossibleTest {
 
 /// Whether replicates of the test would join the group (measurement::same_conditions): homogeneous coupons are to be
 /// unloaded.
-bool answers(const PossibleTest& test, const Observation& group);
+bool would_join(const PossibleTest& test, const Observation& group);
 
 /// The group that replicates of it would be, before anything is measured.
 Observation group_of(const PossibleTest& test, int replicates);
@@ -31,14 +32,14 @@ Observation group_of(const PossibleTest& test, int replicates);
 /// Tests that a laboratory could add to these: turned twins of measured designs, other rates and half the thickness for
 /// the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
-/// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. What is measured
-/// already, at these conditions or within their tolerance, is left out.
+/// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. Tests that were made
+/// already, at these conditions or within their tolerance, are left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations);
 
-/// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with.
+/// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: the loading of homogeneous coupons that are ordered.
 tester::Loading coupon_loading();
 
-/// Strains on that way.
+/// Strains of that loading.
 std::vector<double> unload_history();
 
 }  // namespace nacre::diagnosis

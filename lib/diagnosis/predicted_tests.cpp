@@ -23,7 +23,7 @@ material::ParameterSet parameters_for(const PossibleTest& test, const Coordinate
   return test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
 }
 
-/// What a model predicts of a test, one value per feature that says something.
+/// Predictions of a test by a model, one value per feature that it shows.
 FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set,
                                  tester::Fidelity fidelity) {
   FeatureValues values;
@@ -57,7 +57,7 @@ std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTe
   return seen;
 }
 
-/// Whether E of what a homogeneous coupon consists of is still anybody's guess: none of it has been pulled.
+/// Whether E of a homogeneous coupon's material is unknown: none of it has been pulled.
 bool is_of_unknown_stiffness(const Observation& added, const Observations& measured) {
   return added.design.mixture() != nullptr &&
          std::ranges::none_of(measured.groups, [&](const Observation& g) { return g.design == added.design; });
@@ -70,8 +70,8 @@ bool holds(const FittedModel& whole, const FittedModel& part) {
   });
 }
 
-/// The inverse of the covariance of a model's free coordinates: what the data say, the prior of the base constants, and
-/// of an effect that its value lies anywhere in its range. `columns`: Fit::whitened_columns().
+/// The inverse of the covariance of a model's free coordinates: information of the data, prior of the base constants,
+/// and for an effect a uniform prior over its range. `columns`: FittedModel::whitened_columns().
 Eigen::LDLT<Eigen::MatrixXd> information(const FittedModel& model, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd normal = columns.transpose() * columns;
   for (std::size_t k = 0; k < model.free.size(); ++k) {
@@ -117,7 +117,7 @@ PredictedTests::PredictedTests(const Evidence& evidence, std::vector<FittedModel
     for (const FittedModel& wrong : models_) refits_[truth].push_back(refit(models_[truth], wrong));
 }
 
-/// The rows of a test: features that every model shows, but none whose numerics nobody has measured.
+/// The rows of a test: features that every model shows, but none of unknown discretisation error.
 std::vector<int> PredictedTests::add_group(Observation group, const std::vector<FeatureValues>& seen) {
   std::vector<int> rows;
   const bool fracture = group.test == TestKind::toughness;
@@ -128,22 +128,22 @@ std::vector<int> PredictedTests::add_group(Observation group, const std::vector<
     if (!std::ranges::all_of(seen, [f](const FeatureValues& values) { return values[f].has_value(); })) continue;
     if (fracture && discretisation_known && std::ranges::find(known, feature) == known.end()) continue;
     rows.push_back(added_.size());
-    added_.rows.push_back({static_cast<int>(added_.groups.size()), feature, Probe::mean, group.test,
+    added_.rows.push_back({static_cast<int>(added_.groups.size()), feature, RowKind::mean, group.test,
                            1.0 / group.replicates, static_cast<std::size_t>(group.test)});
   }
   if (!rows.empty()) added_.groups.push_back(std::move(group));
   return rows;
 }
 
-/// A fracture test, simulated once, with the slopes of the same layout as it was measured, or of what was measured.
+/// A fracture test, simulated once, with the slopes of the same layout as it was measured, or the mean measured ones.
 void PredictedTests::put_fracture(std::size_t model, int row, const FeatureValues& seen) {
-  const Row& added = added_.rows[row];
+  const DataRow& added = added_.rows[row];
   const pattern::Design& design = added_.group_of(row).design;
   FittedModel& predicted = predicted_[model];
   predicted.predicted[row] = *value_of(seen, added.feature);
   std::vector<int> own, all;
   for (int i = 0; i < measured_.size(); ++i) {
-    const Row& each = measured_.rows[i];
+    const DataRow& each = measured_.rows[i];
     if (each.group < 0 || each.test != TestKind::toughness || each.feature != added.feature) continue;
     all.push_back(i);
     if (measured_.group_of(i).design == design) own.push_back(i);
@@ -152,19 +152,19 @@ void PredictedTests::put_fracture(std::size_t model, int row, const FeatureValue
   if (!like.empty()) predicted.jacobian.row(row) = models_[model].jacobian(like, Eigen::all).colwise().mean();
 }
 
-/// The tests behind what was measured, as rows that know each other.
+/// The tests behind the measured rows, with their joint covariance.
 void PredictedTests::join() {
   joined_ = measured_;
   const int groups = static_cast<int>(measured_.groups.size());
   joined_.groups.insert(joined_.groups.end(), added_.groups.begin(), added_.groups.end());
-  for (Row row : added_.rows) {
+  for (DataRow row : added_.rows) {
     row.group += groups;
     joined_.rows.push_back(row);
   }
 }
 
-PredictedTests::Refit PredictedTests::refit(const FittedModel& truth, const FittedModel& wrong) const {
-  Refit refit;
+PredictedTests::WrongModelRefit PredictedTests::refit(const FittedModel& truth, const FittedModel& wrong) const {
+  WrongModelRefit refit;
   linear_refit(wrong, truth.predicted, whitener_, &refit.step);
   refit.left = whitener_(truth.predicted - wrong.predicted - wrong.jacobian * refit.step);
   return refit;
@@ -183,9 +183,9 @@ PredictedTests::NewRow PredictedTests::new_row(int row) const {
   NewRow result{row, -1, whitener_(with_measured), 0.0};
   result.variance = covariance(place) - result.whitened.squaredNorm();
   if (is_of_unknown_stiffness(added_.group_of(row), measured_) && is_curve_stress(added_.rows[row].feature)) {
-    // Its stiffness is fitted to either model: the shape of the curve is left to tell them apart.
+    // Its stiffness is fitted to either model: only the shape of the curve separates them.
     for (int i = 0; i < added_.size(); ++i) {
-      const Row& other = added_.rows[i];
+      const DataRow& other = added_.rows[i];
       const bool same = other.group == added_.rows[row].group;
       if (same && other.feature == Feature::log_tangent_30) result.against = i;
     }
@@ -194,22 +194,22 @@ PredictedTests::NewRow PredictedTests::new_row(int row) const {
 }
 
 bool PredictedTests::is_replicate(const NewRow& row, std::size_t a, std::size_t b) const {
-  constexpr double kAlike = 0.5;
-  const Row& added = added_.rows[row.row];
+  constexpr double kSame = 0.5;  // standard errors
+  const DataRow& added = added_.rows[row.row];
   const double apart = predicted_[a].predicted[row.row] - predicted_[b].predicted[row.row];
   for (int i = 0; i < measured_.size(); ++i) {
-    const Row& other = measured_.rows[i];
+    const DataRow& other = measured_.rows[i];
     const bool twin = other.group >= 0 && other.test == added.test && other.feature == added.feature &&
                       measured_.group_of(i).design == added_.group_of(row.row).design;
     if (!twin) continue;
     const double measured_apart = models_[a].predicted[i] - models_[b].predicted[i];
-    if (std::abs(apart - measured_apart) < kAlike * std::sqrt(row.variance)) return true;
+    if (std::abs(apart - measured_apart) < kSame * std::sqrt(row.variance)) return true;
   }
   return false;
 }
 
 double PredictedTests::growth(const NewRow& row, std::size_t truth, std::size_t wrong) const {
-  const Refit& refit = refits_[truth][wrong];
+  const WrongModelRefit& refit = refits_[truth][wrong];
   const FittedModel& model = models_[wrong];
   double apart = predicted_[truth].predicted[row.row] - predicted_[wrong].predicted[row.row];
   Eigen::RowVectorXd slopes = predicted_[wrong].jacobian.row(row.row);
@@ -218,7 +218,7 @@ double PredictedTests::growth(const NewRow& row, std::size_t truth, std::size_t 
     slopes -= predicted_[wrong].jacobian.row(row.against);
   }
   apart -= slopes.dot(refit.step) + row.whitened.dot(refit.left);
-  // What the measured rows leave open of the constants, as far as it moves this row against them.
+  // Uncertainty of the constants after the measured rows, as far as it moves this row against them.
   const Eigen::VectorXd open =
       slopes(model.free).transpose() - columns_[wrong].topRows(measured_.size()).transpose() * row.whitened;
   const double variance = row.variance + open.dot(information_[wrong].solve(open));

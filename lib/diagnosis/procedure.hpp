@@ -1,14 +1,15 @@
 #pragma once
+// A hash of the procedure, so that two diagnoses can be compared.
 
 #include <string>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/settings.hpp"
 
 namespace nacre::diagnosis {
 
-/// Content hash of how a verdict is reached, 16 hex digits: the library of effects with its ranges, features,
-/// contrasts, levels, what numerics leave. Not in it: the data, the start of the fit, the seed, and how many
-/// simulations the search may spend.
+/// Content hash of how a verdict is reached, 16 hex digits: known effects with their ranges, features, contrasts,
+/// levels, discretisation floor. Not in it: the data, the initial guess of the fit, the seed, and the budget of the
+/// search.
 std::string procedure_hash(const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

@@ -15,15 +15,15 @@ namespace {
 
 using tester::TestKind;
 
-struct Variant {
+struct DiscretisationVariant {
   const char* words;
   tester::Discretisation discretisation;
   double gamma = 1.0;  ///< factor: the filter of Eq. 2.4 amounts to a viscosity gamma h^2
 };
 
-std::vector<Variant> variants() {
-  Variant step{"half the time step", {}}, rate{"half the simulated rate", {}}, recording{"doubled recording", {}},
-      element{"half the element size", {}, 4.0};
+std::vector<DiscretisationVariant> variants() {
+  DiscretisationVariant step{"half the time step", {}}, rate{"half the simulated rate", {}},
+      recording{"doubled recording", {}}, element{"half the element size", {}, 4.0};
   step.discretisation.time_step_scale = 0.5;
   rate.discretisation.rate_scale = 0.5;
   recording.discretisation.recording_scale = 2;
@@ -47,7 +47,7 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
 }
 
 FeatureValues features_with(const Observation& group, material::ParameterSet set, tester::Fidelity fidelity,
-                            const Variant& variant) {
+                            const DiscretisationVariant& variant) {
   FeatureValues values;
   set.toughness.gamma_per_s *= variant.gamma;
   const tester::Simulation simulation{group.design, set, group.conditions, fidelity};
@@ -64,8 +64,8 @@ FeatureValues features_with(const Observation& group, material::ParameterSet set
 
 std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
                                               tester::Fidelity fidelity) {
-  std::vector<Variant> tried = {{"", {}, 1.0}};
-  for (const Variant& variant : variants()) tried.push_back(variant);
+  std::vector<DiscretisationVariant> tried = {{"", {}, 1.0}};
+  for (const DiscretisationVariant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
   std::vector<SanityCheck> checks;
   for (const auto test : {TestKind::modulus, TestKind::toughness}) {
@@ -86,7 +86,7 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
           if (!before || !after) continue;
           check.largest = std::max(check.largest, std::abs(*after - *before));
           for (int i = 0; i < observations.size(); ++i) {
-            const Row& row = observations.rows[i];
+            const DataRow& row = observations.rows[i];
             if (row.group == groups[g] && row.feature == feature)
               check.allowed = std::max(check.allowed, deviations[i]);
           }

@@ -13,8 +13,8 @@ namespace {
 constexpr double kAssumedSd = 0.02;
 /// Fewer degrees of freedom are made up to so many with the assumed scatter.
 constexpr int kEnoughDof = 8;
-/// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave
-/// a singular covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and
+/// Replicates that agree better than a testing machine reads do not determine scatter; exactly equal ones would leave a
+/// singular covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and
 /// ISO 9513). Strains: as a strain.
 constexpr double kLeastSd = 1e-4, kLeastCurveSd = 2e-3, kLeastStrainSd = 2e-5;
 
@@ -59,7 +59,7 @@ void take_off_means(std::vector<Deviation>& deviations, const std::function<doub
 
 double batch_of(const Deviation& d) { return d.measured->batch_step; }
 
-/// What the specimens of a batch have in common comes off, and what that leaves in the means of groups, in turn.
+/// Takes off the means of batches, then the means of groups that this leaves, in turn.
 void take_off_batches(std::vector<Deviation>& deviations) {
   constexpr int kTurns = 10;
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -83,19 +83,20 @@ std::vector<std::set<double>> joined_batches(const std::map<int, std::set<double
   return joined;
 }
 
-/// How many differences between batches these groups tell.
-int told_differences(const std::vector<Deviation>& deviations) {
+/// How many differences between batches these groups determine.
+int batch_differences(const std::vector<Deviation>& deviations) {
   std::map<int, std::set<double>> batches_of_group;
   for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
-  int told = 0;
-  for (const std::set<double>& batches : joined_batches(batches_of_group)) told += static_cast<int>(batches.size()) - 1;
-  return told;
+  int count = 0;
+  for (const std::set<double>& batches : joined_batches(batches_of_group))
+    count += static_cast<int>(batches.size()) - 1;
+  return count;
 }
 
-/// Sums of squares and products of the deviations. What some groups do not show (an unloading slope, the peak of a
-/// specimen without a curve) must not look as if it scattered less: there the loading slope stands for the unloading
-/// slope, and for every degree of freedom filled in so the assumed variance is added, or the feature's own where that
-/// is larger.
+/// Sums of squares and products of the deviations. A feature that some groups do not show (an unloading slope, the peak
+/// of a specimen without a curve) must not appear to scatter less: there the loading slope takes the place of the
+/// unloading slope, and for every degree of freedom filled in so the assumed variance is added, or the feature's own
+/// where that is larger.
 Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int dof) {
   const auto count = static_cast<double>(deviations.size());
   std::vector<FeatureValues> filled;
@@ -185,15 +186,15 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
                                 const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
   const int within = dof_within(deviations);
-  // Means of batches come off where enough is left to tell scatter by.
-  const int told = told_differences(deviations);
-  const bool by_batch = told > 0 && within >= 4 * told;
+  // Means of batches come off where enough is left to estimate scatter.
+  const int differences = batch_differences(deviations);
+  const bool by_batch = differences > 0 && within >= 4 * differences;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
-  scatter.dof = within - (by_batch ? told : 0);
+  scatter.dof = within - (by_batch ? differences : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
-    // The means of batches are everybody's: each bears its share of what they cost.
+    // All designs share the means of batches: each bears its share of the degrees of freedom that they take.
     scatter.dof = within > 0 ? dof_within(deviations) * scatter.dof / within : 0;
   }
   if (scatter.dof <= 0) return {covariance_of(kAssumed), 0, kEnoughDof};

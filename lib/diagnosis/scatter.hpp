@@ -1,4 +1,5 @@
 #pragma once
+// Scatter of replicates: pooled covariance of deviations from group means, correlations shrunk by p / (p + dof).
 
 #include <string>
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace nacre::diagnosis {
 
-/// One specimen and what its test says.
+/// One specimen and the features of its test.
 struct Measured {
   const measurement::SpecimenRecord* specimen = nullptr;
   FeatureValues features;
@@ -22,16 +23,16 @@ struct Deviation {
 };
 std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& groups, tester::TestKind test);
 
-/// Relative scatter of single specimens where no replicates tell it.
+/// Relative scatter of single specimens where there are no replicates.
 struct AssumedScatter {
   double modulus = 0.02, stress = 0.05, strain = 0.01, toe_strain = 2e-4;
 };
 
-/// Covariance between the features of one specimen. Its stresses go together: a thicker print is stiffer from the first
-/// strain to the last.
+/// Covariance between the features of one specimen. Its stresses are correlated: a thicker print is stiffer from the
+/// first strain to the last.
 Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 
-/// Scatter of the replicates of one test, pooled over its groups: what batches have in common counts as history, not as
+/// Scatter of the replicates of one test, pooled over its groups: differences between batches count as history, not as
 /// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of everything
 /// is assumed, and so it is for features that only some of the groups show, as far as the others lack them. Few
 /// replicates that agree better than that are not believed: up to eight degrees of freedom are made up with it. With a
@@ -39,8 +40,8 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
                                 const std::string& design = "");
 
-/// How many sets of batches there are that no group joins. Where there are several, what batches add to their specimens
-/// looks like what designs differ by. Specimens without a batch count for nothing.
+/// Number of sets of batches that no group joins. Where there are several, differences between batches look like
+/// differences between designs. Specimens without a batch do not count.
 int disconnected_batches(const std::vector<std::vector<Measured>>& groups);
 
 }  // namespace nacre::diagnosis

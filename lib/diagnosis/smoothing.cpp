@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kFewestReadings = 128;
 constexpr double kFewestPieces = 8, kMostPieces = 64;
 
-/// Standard deviation of single readings, from how far each lies beside the line between its neighbours; the median, so
+/// Standard deviation of single readings, from the distance of each to the line between its neighbours; the median, so
 /// that bends do not count.
 double scatter_of(const tester::Curve& curve) {
   std::vector<double> deviations;
@@ -30,7 +30,7 @@ double scatter_of(const tester::Curve& curve) {
 
 /// Stress at the ends of `pieces` pieces, by least squares.
 Eigen::VectorXd knots_of(const tester::Curve& curve, int pieces) {
-  constexpr double kRidge = 1e-6;  // bends as little as it can where no reading says otherwise
+  constexpr double kRidge = 1e-6;  // smallest curvature where there are no readings
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(pieces + 1, pieces + 1);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(pieces + 1);
   const double begin = curve.strain.front(), length = (curve.strain.back() - begin) / pieces;

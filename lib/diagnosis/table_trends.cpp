@@ -19,10 +19,10 @@ namespace {
 
 constexpr int kLeastRows = 5;
 
-using Column = std::vector<std::optional<double>>;
+using NumberColumn = std::vector<std::optional<double>>;
 
 struct TrendTable {
-  std::vector<std::pair<std::string, Column>> columns;  ///< by name, in the order of the heading
+  std::vector<std::pair<std::string, NumberColumn>> columns;  ///< by name, in the order of the heading
   std::vector<measurement::RejectedRow> rejected;
 };
 
@@ -98,7 +98,7 @@ TrendTable read_table(const std::filesystem::path& file, const std::string& meas
   const std::vector<std::string> names = read_heading(reader, source);
   const std::size_t y = position_of(names, measured, source), f = position_of(names, predicted, source);
   TrendTable table;
-  for (const std::string& name : names) table.columns.emplace_back(name, Column{});
+  for (const std::string& name : names) table.columns.emplace_back(name, NumberColumn{});
   CsvRow row;
   while (reader.next(row)) {
     if (row.blank()) continue;
@@ -114,7 +114,7 @@ TrendTable read_table(const std::filesystem::path& file, const std::string& meas
   return table;
 }
 
-const Column& column_named(const TrendTable& table, const std::string& name) {
+const NumberColumn& column_named(const TrendTable& table, const std::string& name) {
   return std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& each) { return each.first == name; })
       ->second;
 }
@@ -131,8 +131,8 @@ struct Pairing {
 TableTrends table_trends(const std::filesystem::path& file, const std::string& measured, const std::string& predicted,
                          std::uint64_t seed, int permutations) {
   TrendTable table = read_table(file, measured, predicted);
-  const Column& y = column_named(table, measured);
-  const Column& f = column_named(table, predicted);
+  const NumberColumn& y = column_named(table, measured);
+  const NumberColumn& f = column_named(table, predicted);
   std::map<std::size_t, double> residual;  // by row
   for (std::size_t r = 0; r < y.size(); ++r) residual[r] = std::log(*y[r] / *f[r]);
   if (residual.size() < kLeastRows) {

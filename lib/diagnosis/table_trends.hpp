@@ -1,5 +1,5 @@
 #pragma once
-// Tables without patterns: along which of its columns do measured and predicted values part?
+// Tables without patterns: rank correlation of log(measured / predicted) with each column, by permutation of the rows.
 
 #include <cstdint>
 #include <filesystem>

@@ -10,7 +10,7 @@ namespace nacre::diagnosis {
 namespace {
 
 constexpr double kMostErrors = 4.0;   // believed of one way of testing
-constexpr double kLeastErrors = 1.0;  // below which a test says nothing
+constexpr double kLeastErrors = 1.0;  // below which a test separates nothing
 constexpr double kLeastFall = 1e-6;   // of a chance, below which a further test is not bought for it
 
 /// Squared errors already bought for one pair, by way of testing.
@@ -27,7 +27,7 @@ void buy(Bought& bought, const TestValue& test, std::size_t pair) {
   square = std::max(square, std::pow(std::min(test.pairs[pair].errors, kMostErrors), 2));
 }
 
-/// What one more test is worth.
+/// The value of one more test.
 struct Worth {
   double fall = 0.0;     ///< of the chance of confusion, summed over the pairs
   double errors = 0.0;   ///< the largest separation
@@ -47,7 +47,7 @@ Worth worth_of(const TestValue& test, const std::vector<Bought>& bought) {
     const double fall = confusion(bought[pair]) - confusion(then), errors = test.pairs[pair].errors;
     worth.fall += fall;
     worth.errors = std::max(worth.errors, errors);
-    const double gain = fall + kLeastFall * errors;  // where nothing falls any more, the pair that it tells apart most
+    const double gain = fall + kLeastFall * errors;  // where nothing falls any more, the pair that it separates most
     if (gain > most) most = gain, worth.pair = pair;
   }
   return worth;

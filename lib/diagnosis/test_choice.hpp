@@ -1,4 +1,6 @@
 #pragma once
+// Greedy choice of tests that separate pairs of models: chance of confusion Phi(-d / 2), d^2 summed over tests of
+// different ways.
 
 #include <cstddef>
 #include <string>
@@ -8,15 +10,15 @@
 
 namespace nacre::diagnosis {
 
-/// How far apart two models see a test, in standard errors of the feature that shows it most.
+/// Difference of two models' predictions of a test, in standard errors of the feature that shows it most.
 struct Separation {
   double errors = 0.0;
   Feature feature = Feature::log_modulus;
 };
 
-/// What a possible test says about every pair of models.
+/// Separation of every pair of models by a possible test.
 struct TestValue {
-  std::string way;                ///< "turned twin", ...: tests of one way share what all models get wrong about it
+  std::string way;                ///< "turned twin", ...: tests of one way share the errors of all models there
   std::vector<Separation> pairs;  ///< in the same order in every test
 };
 
@@ -27,8 +29,8 @@ struct TestChoice {
 
 /// At most `count` tests, chosen one after another so that the chance of taking one model of a pair for the other falls
 /// most, summed over the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums
-/// the squared errors of the best test of each way, none counted as more than four standard errors: models foretell
-/// only so well what nobody has tested. Where no chance falls any more, the largest separation comes first. What
+/// the squared errors of the best test of each way, none counted as more than four standard errors: predictions of
+/// tests are not better than that. Where no chance falls any more, the largest separation comes first. A test that
 /// separates no pair by a standard error is never chosen.
 std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
 

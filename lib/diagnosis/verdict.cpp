@@ -38,7 +38,7 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
   return contrasts;
 }
 
-/// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test,
+/// Chance of a misfit as large as that of this model when it is true: the smaller of the omnibus and the contrast test,
 /// doubled because there are two of them.
 double chance_of_misfit(const Evidence& evidence, const FittedModel& fit) {
   const Anchor anchor{
@@ -54,7 +54,8 @@ double chance_of_misfit(const Evidence& evidence, const FittedModel& fit) {
 
 bool usable(const FittedModel& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
-/// Whether data drawn from this rival would let another model win by as much as was seen so seldom that it is excluded.
+/// Whether data drawn from this rival would let another model win by as much as was observed so seldom that it is
+/// excluded.
 bool excluded_by_draws(const Evidence& evidence, const std::vector<FittedModel>& rivals, std::size_t rival,
                        double lead) {
   if (lead <= 0.0) return false;
@@ -63,8 +64,9 @@ bool excluded_by_draws(const Evidence& evidence, const std::vector<FittedModel>&
   return exceedance(draws.lead_of_best_other, lead) < kExclusionLevel;
 }
 
-/// -2 log likelihood of a model with its own numerics: directions that all models share let one of them explain itself
-/// by what elements would do in another. From where it was fitted and from where the search for the base began.
+/// Profile deviance of a model: -2 log likelihood with its own discretisation error (directions that all models share
+/// let one of them explain its misfit by the discretisation error of another), the smaller of a fit from its optimum
+/// and one restarted from the initial guess of the base.
 double profile_deviance(const Evidence& evidence, const FittedModel& model) {
   const auto from = [&](const Eigen::VectorXd& u) {
     return fit_with_own_discretisation(evidence, model.effects, u).deviance;
@@ -76,7 +78,7 @@ double profile_deviance(const Evidence& evidence, const FittedModel& model) {
 struct Fitting {
   std::vector<FittedModel> models;
   std::vector<bool> excluded_by_draws;
-  std::vector<double> behind;  ///< -2 log likelihood; where elements matter with each model's own numerics
+  std::vector<double> behind;  ///< -2 log likelihood; where elements matter with each model's own discretisation error
 };
 
 Fitting fitting_among(const Evidence& evidence, const std::vector<FittedModel>& rivals,
@@ -97,8 +99,9 @@ Fitting fitting_among(const Evidence& evidence, const std::vector<FittedModel>& 
   return fitting;
 }
 
-/// Models that the data cannot tell from the best one, the best first: each fits by itself and is not excluded by draws
-/// under the numerics of all models; where elements matter, a model's likelihood with its own decides with them.
+/// Models that the data cannot distinguish from the best one, the best first: each fits by itself and is not excluded
+/// by draws under the discretisation error of all models; where elements matter, the profile deviance decides with
+/// them.
 std::vector<FittedModel> confidence_set(const Evidence& evidence, const std::vector<FittedModel>& rivals,
                                         const std::vector<double>& p_fit) {
   const Fitting fitting = fitting_among(evidence, rivals, p_fit);
@@ -116,8 +119,8 @@ std::vector<FittedModel> confidence_set(const Evidence& evidence, const std::vec
   return kept;
 }
 
-/// Effects that pairs are built on, the best first: alone, a cause's look-alike may explain more than the cause does
-/// beside a second one.
+/// Effects that pairs are built on, the best first: alone, a collinear effect may explain more than the cause, which
+/// needs a second effect.
 std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
   constexpr std::size_t kMost = 3;
   constexpr double kLeastShare = 0.5;  // of what the best one explains
@@ -150,8 +153,8 @@ std::vector<FittedModel> significant_pairs(const Evidence& evidence, const Fitte
   return pairs;
 }
 
-/// Fits the effect that these pairs share once more by itself, from where each pair ended: a pair may have found the
-/// way that its first effect missed alone, and what it gains must not be better optimisation. True when the effect fits
+/// Refits the effect that these pairs share by itself, restarted from where each pair ended: a pair may have found an
+/// optimum that its first effect missed alone, and its gain must not be better optimisation. True when the effect fits
 /// better now.
 bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<FittedModel>& pairs) {
   constexpr double kBetter = 1.0;
@@ -187,10 +190,10 @@ Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, s
   return decision;
 }
 
-/// Signal-to-noise of what a model adds to the base at its own constants and with its own numerics, beyond what moving
-/// the constants imitates, or would were they not bounded: what an effect only repairs of a range is no trace of its
-/// own. Not at the base's constants: to imitate an effect they went as far as they could, and what moving them does
-/// there, and how elements move the model there, says little of the true ones.
+/// Signal-to-noise ratio of the effects of a model at its own constants and with its own discretisation error, beyond
+/// what moving the constants imitates, or would were they not bounded: an effect that only makes up for a bound has no
+/// signature of its own. Not at the base's constants: they moved as far as they could to imitate the effect, and
+/// derivatives and discretisation error there say little of the true ones.
 double signal_of(const Evidence& evidence, const FittedModel& model) {
   const FittedModel fit = fit_with_own_discretisation(evidence, model.effects, model.u).fit;
   const FittedModel base = linearised(evidence.model, {}, fit.u.head(fit.base_count));
@@ -205,15 +208,14 @@ double lead_of_contrast(const Evidence& evidence, const Decision& decision, cons
   return std::pow(decision.contrasts.front().statistic, 2) - (evidence.base.fit.chi2 - model.chi2);
 }
 
-/// What is left of a model of one or two effects without one of them.
+/// A model of one or two effects without one of them.
 const FittedModel& without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
   if (model.effects.size() == 1) return evidence.base.fit;
   return *std::ranges::find_if(
       evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
 }
 
-/// A condition of the specimens, one factor on which does as well as one of a model's effects does beside the others;
-/// empty when none does.
+/// A condition of the specimens, one factor on which does as well as one of a model's effects; empty when none does.
 std::string condition_instead(const Evidence& evidence, const FittedModel& model) {
   const NoisyData data{evidence.observations.values, Whitener(evidence.observations.covariance())};
   Anchor anchor;
@@ -229,7 +231,7 @@ std::string condition_instead(const Evidence& evidence, const FittedModel& model
   return {};
 }
 
-/// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
+/// Names one, or keeps several (`possible` is not empty); none where an unmodelled cause could look the same.
 Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, std::string reason) {
   const FittedModel& best = possible.front();
   const double signal = signal_of(evidence, best);
@@ -237,27 +239,28 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fitted
   const std::string nearest = in_words(best.effects) + " comes nearest";
   if (signal < kNameableSignal) {
     return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does "
-                                   "not hold could look the same (a name needs {:.1f})",
+                       fmt::format("{}, but its signature has a signal-to-noise ratio of only {:.1f}: an unmodelled "
+                                   "cause could look the same (a name needs {:.1f}, more replicates raise the ratio)",
                                    nearest, signal, kNameableSignal));
   }
   if (const double lead = lead_of_contrast(evidence, decision, best); lead > kContrastTie) {
-    return unexplained(
-        std::move(decision), possible,
-        fmt::format("{}, but \"{}\" alone explains more: a cause that the library does not hold acts along it", nearest,
-                    decision.contrasts.front().name));
+    return unexplained(std::move(decision), possible,
+                       fmt::format("{}, but the contrast \"{}\" alone explains more: an unmodelled cause acts along it",
+                                   nearest, decision.contrasts.front().name));
   }
   if (const std::string condition = condition_instead(evidence, best); !condition.empty()) {
     return unexplained(
         std::move(decision), possible,
-        fmt::format("{}, but one factor on all specimens of one {} explains these data as well: a cause that the "
-                    "library does not hold may act there (homogeneous coupons of both kinds would tell)",
-                    nearest, condition));
+        fmt::format(
+            "{}, but one factor on all specimens of the same {} explains these data as well: an unmodelled cause "
+            "may act along it (homogeneous coupons of each {} would show which)",
+            nearest, condition, condition));
   }
   if (decision.p_outside > kDiscrepancyLevel) {
     return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but a cause that the library does not hold could follow the same differences "
-                                   "between these specimens (chance {:.2f}, a name needs {:.2f})",
+                       fmt::format("{}, but an unmodelled cause could look the same: data drawn from a discrepancy "
+                                   "model, which knows no physics, favour a known effect by as much with probability "
+                                   "{:.2f} (a name needs {:.2f} or less)",
                                    nearest, decision.p_outside, kDiscrepancyLevel));
   }
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
@@ -266,10 +269,10 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fitted
   return decision;
 }
 
-/// Why an effect that leaves nothing is no name: it stands on a bound of its range.
-std::string at_the_end(const FittedModel& single) {
+/// Why an effect whose residuals are noise is not named: it is at its bound.
+std::string at_its_bound(const FittedModel& single) {
   const material::Effect& effect = *material::find_effect(single.effects.front());
-  return fmt::format("{} comes nearest, with {:.3g}{} at the end of what is searched: one beyond it may be the cause",
+  return fmt::format("{} comes nearest, but its size, {:.3g}{}, is at its bound: one beyond it may be the cause",
                      material::effect_in_words(effect.name),
                      single.parameters.extensions.at(single.effects.front()).front(),
                      material::unit_behind_number(effect.parameters.front().unit));
@@ -281,7 +284,7 @@ std::size_t best_single(const Evidence& evidence) {
   return static_cast<std::size_t>(best - evidence.singles.begin());
 }
 
-/// Of every single effect. What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
+/// Of every single effect. One far behind the best cannot be in the set: its misfit is not bootstrapped.
 std::vector<double> chances_of_misfit(const Evidence& evidence, std::size_t best) {
   std::vector<double> chances;
   for (const FittedModel& single : evidence.singles) {
@@ -314,23 +317,24 @@ Decision decide(Evidence& evidence) {
                             : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
   if (best_p > evidence.settings.name_level) {
     if (decision.p_misfit >= evidence.settings.unexplained_level) {
-      decision.reason = "no effect improves the fit beyond chance and the residuals look like noise";
+      decision.reason = "no known effect improves the fit beyond chance, and the residuals are noise";
       return decision;
     }
     return unexplained(std::move(decision), evidence.singles,
-                       "the residuals are larger than noise, but no effect of the library explains them");
+                       "the residuals are larger than noise, but no known effect improves the fit beyond chance: an "
+                       "unmodelled cause acts");
   }
-  report(0.8, "testing what each effect leaves");
+  report(0.8, "testing the residuals of each effect");
   const std::size_t best = best_single(evidence);
   decision.p_fit = chances_of_misfit(evidence, best);
-  // A second effect would only make up for the end of the first one's range.
+  // A second effect would only make up for the bound of the first one.
   if (decision.p_fit[best] >= evidence.settings.unexplained_level && evidence.singles[best].extension_on_bound)
-    return unexplained(std::move(decision), {evidence.singles[best]}, at_the_end(evidence.singles[best]));
+    return unexplained(std::move(decision), {evidence.singles[best]}, at_its_bound(evidence.singles[best]));
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
     std::vector<FittedModel> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
     return settled(evidence, std::move(decision), std::move(possible),
-                   "one effect fitted jointly with the base explains the data");
+                   "fitted jointly with the base model, it explains the data");
   }
   report(0.9, "fitting pairs of effects");
   const std::optional<std::vector<FittedModel>> pairs = pairs_of_best(evidence);
@@ -345,10 +349,11 @@ Decision decide(Evidence& evidence) {
     std::vector<FittedModel> tried = evidence.singles;
     tried.insert(tried.end(), pairs->begin(), pairs->end());
     return unexplained(std::move(decision), tried,
-                       "even the best effects of the library leave a misfit larger than noise");
+                       "even with the best one or two known effects the residuals stay larger than noise: an "
+                       "unmodelled cause acts");
   }
   return settled(evidence, std::move(decision), std::move(possible),
-                 "no single effect suffices; two together explain the data");
+                 "no single effect explains the data, these two together do");
 }
 
 }  // namespace nacre::diagnosis

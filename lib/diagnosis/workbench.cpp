@@ -21,7 +21,8 @@ constexpr double kSpread = 0.3;
 constexpr double kRunSizes[] = {0.1, 0.3, 0.6};
 constexpr double kJitter = 0.05;
 
-void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
+void move_eta(material::ToughnessParameters& parameters, double spread, double sign,
+              const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
   for (std::size_t k = 0; k < sysid::kSearchedEta.size(); ++k)
     eta[sysid::kSearchedEta[k]] *= std::exp(sign * spread * normal[k]);
@@ -42,7 +43,7 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
     const std::vector<double> normal = normals(random);
     for (const double sign : {1.0, -1.0}) {
       sets.push_back(centre);
-      moved(sets.back().toughness, kSpread, sign, normal);
+      move_eta(sets.back().toughness, kSpread, sign, normal);
     }
   }
   for (const material::Effect& effect : material::effect_library()) {
@@ -57,14 +58,14 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
         u[own] = std::clamp(sign * size, map.lower(own), map.upper(own));
         for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
         sets.push_back(map.parameters(u));
-        moved(sets.back().toughness, kJitter, 1.0, normals(random));
+        move_eta(sets.back().toughness, kJitter, 1.0, normals(random));
       }
     }
   }
   return sets;
 }
 
-/// Effects that leave traces in these rows, in the order of the library.
+/// Effects that have a signature in these rows, in the order of material::effect_library().
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
@@ -74,7 +75,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
       std::ranges::all_of(rows, [&](Eigen::Index row) { return is_modulus_of_layout(observations, row); });
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
-    if (moduli_alone && !tells_on_moduli(effect)) continue;
+    if (moduli_alone && !is_identified_by_moduli(effect)) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
     const CoordinateMap map = model.map(names);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());

@@ -1,18 +1,19 @@
 #pragma once
+// Data, forward model and emulator of one diagnosis.
 
 #include <memory>
 
-#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/fracture_runs.hpp"
 #include "diagnosis/model.hpp"
+#include "diagnosis/settings.hpp"
 
 namespace nacre::diagnosis {
 
 /// Data, testers and emulator of one diagnosis, tied together.
 class Workbench {
  public:
-  /// Groups the specimens; where there are fracture tests finds the eta to look around and simulates around it. Throws
+  /// Groups the specimens; where there are fracture tests finds the most probable eta and simulates around it. Throws
   /// TooFewSpecimens.
   Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
   Observations& observations() { return observations_; }
@@ -24,8 +25,7 @@ class Workbench {
   /// covariance follows. Nothing to do without fracture tests. Returns the largest error of the emulator at the new
   /// points, in its own standard deviations.
   double refine(const std::vector<material::ParameterSet>& sets);
-  /// The curve of a group as a fit would show it: of the nearest run, machine included, or of the coupon; empty for a
-  /// modulus.
+  /// The curve of a group at a fit: of the nearest run, machine included, or of the coupon; empty for a modulus.
   tester::Curve curve_at(int group, const FittedModel& fit) const;
 
  private:
@@ -43,7 +43,7 @@ class Workbench {
 /// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
 /// needed.
 inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
-/// The place of the typical size among them, at which it is asked whether data could show an effect.
+/// Index of the typical size among them, at which visibility is judged.
 inline constexpr int kTypicalSize = 2;
 
 }  // namespace nacre::diagnosis

@@ -1,5 +1,5 @@
 #pragma once
-// What a search asked for, batch by batch, so that after an interruption nothing is thought about twice.
+// The record of a search, batch by batch, so that after an interruption no batch is computed twice.
 
 #include <filesystem>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace nacre::explore {
 
-/// A text file: a line that says which search it is of, then one line of keys per batch. A line that was cut
-/// off by a crash is dropped; a last batch that a smaller budget cut short is filled up, or left as it is by searches
-/// that think (Search::question), which go on after it.
+/// A text file: a line that identifies the search, then one line of keys per batch. A line that was cut off by a crash
+/// is dropped; a last batch that a smaller budget cut short is filled up, or left as it is by model-based searches
+/// (Search::batch_request), which go on after it.
 class BatchLog {
  public:
-  /// Opens or begins the file of a search on a `model` (any text that tells it from others). Throws InputError naming
+  /// Opens or begins the file of a search on a `model` (any text that identifies it). Throws InputError naming
   /// the file: of another search (anything but the budget differs), not readable, not writable.
   BatchLog(std::filesystem::path path, const SearchSettings& settings, const std::string& model = "");
-  /// search.ask(); batches that the file holds are not thought about again.
+  /// search.ask(); batches that the file holds are not computed again.
   std::vector<pattern::Pattern> ask(Search& search);
   /// Batches of the file that have not been asked for yet.
   std::size_t left() const { return batches_.size() - next_; }

@@ -49,7 +49,7 @@ class Evolution final : public Search {
     if (next_start_ < start_.size()) {
       add_start();
     } else if (population_.empty()) {
-      // Every simulation so far has failed: there is nobody to descend from yet.
+      // Every simulation so far has failed: there are no parents yet.
       while (ledger_.room() > 0) ledger_.add(unseen_random_pattern(ledger_, restart_));
     } else {
       add_offspring();

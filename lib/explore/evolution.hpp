@@ -1,4 +1,5 @@
 #pragma once
+// NSGA-II over patterns (K. Deb et al., 2002; thesis 2.3.3), with mutation alone.
 
 #include <memory>
 
@@ -9,7 +10,7 @@ namespace nacre::explore {
 /// How NSGA-II makes an offspring from its parent (2.3.3, 3.2.5).
 enum class Variation {
   three_way,                ///< the custom mutation
-  single_pixel,             ///< baseline 1: single pixels, heaped upon one another until the child is feasible and new
+  single_pixel,             ///< baseline 1: single pixels, accumulated until the child is feasible and new
   single_pixel_rolled_back  ///< baseline 2: a single pixel that makes the child infeasible or old is taken back
 };
 

@@ -21,8 +21,8 @@ namespace {
 constexpr std::string_view kHeader = "index,pattern,rigid_fraction,modulus_pa,toughness_pa";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Where the reader stands, for its errors.
-struct Place {
+/// The line that is read, for error messages.
+struct CsvPlace {
   std::string_view source;
   std::size_t line = 0;
   InputError error(std::size_t field, std::string_view name, std::string_view found, std::string_view expected) const {
@@ -46,11 +46,11 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 /// Positions of the columns that are read.
-struct Columns {
+struct GamutColumns {
   std::size_t count = 0, pattern = 0, modulus = 0, toughness = 0;
 };
 
-Columns columns_of(std::string_view header, std::string_view source) {
+GamutColumns columns_of(std::string_view header, std::string_view source) {
   const std::vector<std::string_view> names = fields_of(header);
   const auto position = [&](std::string_view name) {
     std::optional<std::size_t> found;
@@ -68,7 +68,7 @@ Columns columns_of(std::string_view header, std::string_view source) {
 }
 
 double quantity(const std::vector<std::string_view>& fields, std::size_t column, std::string_view name,
-                const Place& place) {
+                const CsvPlace& place) {
   const std::string_view text = fields[column];
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -78,7 +78,7 @@ double quantity(const std::vector<std::string_view>& fields, std::size_t column,
   return value;
 }
 
-pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::size_t column, const Place& place) {
+pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::size_t column, const CsvPlace& place) {
   const Result<pattern::Pattern> pattern = pattern::pattern_from_key(fields[column]);
   if (!pattern) throw place.error(column, "pattern", fields[column], "the key of a pattern, 14 lower-case hex digits");
   return *pattern;
@@ -107,10 +107,10 @@ std::vector<Evaluated> read_gamut_csv(const std::filesystem::path& path) {
 std::vector<Evaluated> gamut_from_csv(std::string_view text, std::string_view source) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.empty()) throw InputError::format("{}: line 1: the file is empty, expected {}", source, kHeader);
-  const Columns columns = columns_of(take_line(text), source);
+  const GamutColumns columns = columns_of(take_line(text), source);
   std::vector<Evaluated> gamut;
   std::unordered_map<std::uint64_t, std::size_t> line_of_pattern;
-  for (Place place{source, 2}; !text.empty(); ++place.line) {
+  for (CsvPlace place{source, 2}; !text.empty(); ++place.line) {
     const std::string_view line = take_line(text);
     if (line.empty()) continue;
     const std::vector<std::string_view> fields = fields_of(line);

@@ -1,5 +1,6 @@
 #pragma once
-// How much a simulation can be expected to enlarge the dominated area, in closed form.
+// Expected hypervolume improvement in closed form: E[growth] = sum over the steps of the front of the product of two
+// expected excesses.
 
 #include <Eigen/Dense>
 #include <span>
@@ -29,13 +30,14 @@ struct Belief {
 /// sum over steps is exact.
 double expected_improvement(const Belief& belief, std::span<const optimize::Performance> front);
 
-/// How the errors of beliefs about several patterns hang together, n x n each; empty: not at all.
+/// Covariance of the errors of beliefs about several patterns, n x n each; empty: none.
 struct SharedErrors {
   Eigen::MatrixXd log_modulus, log_toughness;
 };
 
 /// Indices of up to `count` beliefs, chosen one by one for the largest expected improvement over the front as if those
-/// already chosen had come out at their medians: these stand in the front, and what is like them is no longer unsure.
+/// already chosen had come out at their medians: these are in the front, and patterns correlated with them are no
+/// longer uncertain.
 std::vector<std::size_t> best_improvements(std::vector<Belief> beliefs, std::vector<optimize::Performance> front,
                                            int count, SharedErrors shared = {});
 

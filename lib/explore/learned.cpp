@@ -19,7 +19,7 @@
 namespace nacre::explore {
 namespace {
 
-/// Candidates whose uncertainty is looked at, and those of them that a batch is chosen from; a batch itself may be
+/// Candidates whose uncertainty is computed, and those of them that a batch is chosen from; a batch itself may be
 /// larger.
 constexpr std::size_t kShortList = 1000, kFinalists = 250;
 
@@ -51,7 +51,7 @@ std::vector<pattern::Pattern> barred_start(const BatchRequest& batch_request) {
   const int asked = static_cast<int>(batch_request.evaluated.size() + batch_request.lost.size());
   const int count = std::min(batch_request.count, settings.population + settings.learned.barred_start - asked);
   if (count <= 0 || !settings.former.empty()) return {};
-  constexpr int kSpare = 10;  // some are alike or known
+  constexpr int kSpare = 10;  // some are equal or known
   std::vector<pattern::Pattern> start = patterns_of(barred_patterns(batch_request, kSpare * batch_request.count));
   start.resize(std::min(start.size(), static_cast<std::size_t>(count)));
   return start;
@@ -65,7 +65,7 @@ std::vector<Evaluated> candidates_for(const BatchRequest& batch_request, const P
   };
   const auto count = static_cast<std::size_t>(learned.population);
   // The population of that search begins with the best that was simulated, at its true values: a candidate has to be
-  // believed better than these, not better than what is believed of them.
+  // predicted better than these, not better than their predictions.
   std::vector<Evaluated> start = best_by_rank(batch_request.evaluated, count);
   std::vector<Evaluated> candidates = barred_patterns(batch_request, learned.barred_candidates);
   const std::vector<optimize::Performance> performances = believed_of(patterns_of(candidates));
@@ -79,7 +79,7 @@ std::vector<Evaluated> candidates_for(const BatchRequest& batch_request, const P
   return unseen(std::move(candidates), batch_request);
 }
 
-/// Patterns and what is believed of them.
+/// Patterns and the beliefs about them.
 struct Finalists {
   std::vector<pattern::Pattern> patterns;
   std::vector<Belief> beliefs;
@@ -101,7 +101,7 @@ Finalists finalists_of(const Predictors& predictors, std::span<const pattern::Pa
   return best;
 }
 
-/// Puts the modulus itself in place of what is believed of it; what could not be computed stays believed.
+/// Puts the computed modulus in place of the belief about it; one that could not be computed stays a belief.
 void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
   const std::vector<std::optional<double>> moduli = modulus_of(finalists.patterns);
   for (std::size_t i = 0; i < moduli.size(); ++i)

@@ -15,7 +15,7 @@ void check_learned(const LearnedSettings& settings);
 LearnedSettings thesis_learning();
 
 /// The next batch. After the random patterns come some with rigid bars. Then predictors of log E and log T are fitted
-/// to what was evaluated (and to `former` samples as a first guess), NSGA-II searches on them from the best samples and
+/// to all samples (and to `former` samples as a first guess), NSGA-II searches on them from the best samples and
 /// the best of many random patterns with bars, and among all that are not yet simulated the batch is chosen. Fewer than
 /// asked for only when there are fewer.
 std::vector<pattern::Pattern> learned_batch(const BatchRequest& batch_request);

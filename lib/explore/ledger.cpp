@@ -34,7 +34,7 @@ std::vector<pattern::Pattern> Ledger::hand_out() {
 
 std::span<const Evaluated> Ledger::record(std::span<const std::optional<optimize::Performance>> performances) {
   assert(awaiting_ && "tell() without a batch that was asked for");
-  assert(performances.size() == batch_.size() && "tell() must answer the whole batch");
+  assert(performances.size() == batch_.size() && "tell() needs a performance for every pattern of the batch");
   const std::size_t before = evaluated_.size();
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     if (!performances[i]) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// What every search keeps: which patterns were asked for, what came back, and how much of the budget is left.
+// The record of every search: patterns asked for, their performances, and the budget that is left.
 
 #include <optional>
 #include <span>
@@ -15,13 +15,13 @@ class Ledger {
   explicit Ledger(const SearchSettings& settings);
   /// Whether the pattern is known, was asked for before or stands in the batch that is being put together.
   bool seen(const pattern::Pattern& pattern) const { return seen_.contains(pattern.bits()); }
-  /// Patterns that the batch may still take; none while an answer is awaited.
+  /// Patterns that the batch may still take; none while performances are awaited.
   int room() const;
   /// Adds an unseen pattern to the batch.
   void add(const pattern::Pattern& pattern);
-  /// The batch is handed out; asserts that the last one was answered.
+  /// The batch is handed out; asserts that the last one was told.
   std::vector<pattern::Pattern> hand_out();
-  /// The answer to the last batch; asserts that there is one of this size. Returns the new samples.
+  /// The performances of the last batch; asserts that there is one of this size. Returns the new samples.
   std::span<const Evaluated> record(std::span<const std::optional<optimize::Performance>> performances);
   const std::vector<Evaluated>& evaluated() const { return evaluated_; }
   int asked() const { return asked_; }

@@ -11,21 +11,21 @@
 namespace nacre::explore {
 namespace {
 
-/// What `ask` says of each pattern, in their order.
-template <typename Ask>
-auto of_each(std::span<const pattern::Pattern> patterns, int threads, const Ask& ask) {
-  std::vector<decltype(ask(patterns[0]))> answers(patterns.size());
+/// `compute` of each pattern, in their order.
+template <typename Compute>
+auto of_each(std::span<const pattern::Pattern> patterns, int threads, const Compute& compute) {
+  std::vector<decltype(compute(patterns[0]))> results(patterns.size());
   parallel_for(
       static_cast<int>(patterns.size()),
       [&](int i) {
         const auto index = static_cast<std::size_t>(i);
-        answers[index] = ask(patterns[index]);
+        results[index] = compute(patterns[index]);
       },
       threads);
-  return answers;
+  return results;
 }
 
-/// Natural logarithms of what the unit cell of a pattern says in both testers.
+/// Natural logarithms of the moduli and loads of a pattern's unit cell in both testers.
 struct CellLogs {
   double modulus = 0.0;
   /// In the toughness tester: the modulus, then the loads of the blocks.
@@ -44,7 +44,7 @@ CellLogs cell_logs(const pattern::Pattern& pattern, const material::ParameterSet
   return logs;
 }
 
-/// Cells of one model. Thread-safe; what is answered does not depend on what is remembered.
+/// Cells of one model. Thread-safe; results do not depend on what is remembered.
 class CellMemory {
  public:
   explicit CellMemory(const material::ParameterSet& parameters) : parameters_(parameters) {}
@@ -72,7 +72,7 @@ class CellMemory {
   std::unordered_map<std::uint64_t, CellLogs> known_;
 };
 
-/// An agent asks question after question about one model, each by itself.
+/// An agent needs batch after batch for one model, each by itself.
 std::shared_ptr<CellMemory> memory_of(const material::ParameterSet& parameters) {
   static std::mutex mutex;
   static std::shared_ptr<CellMemory> last;

@@ -1,5 +1,5 @@
 #pragma once
-// What elasticity says of patterns, for searches that may ask for it: hundredths of what a fracture costs and less.
+// Elastic quantities of patterns, for searches that use them: a hundredth of the cost of a fracture test and less.
 
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
@@ -8,8 +8,8 @@
 namespace nacre::explore {
 
 /// By the testers' own model, on `threads` cores (0: all allowed ones): moduli as a simulation of the pattern would
-/// tell them, 3 ms each, and unit cells (tester/unit_cell.hpp), 0.3 ms each; those of the model asked about last are
-/// remembered. A cell that cannot be solved counts as one of 1 Pa everywhere.
+/// compute them, 3 ms each, and unit cells (tester/unit_cell.hpp), 0.3 ms each; those of the last model are remembered.
+/// A cell that cannot be solved counts as one of 1 Pa everywhere.
 Mechanics mechanics_by_tester(const material::ParameterSet& parameters, tester::Fidelity fidelity, int threads);
 
 }  // namespace nacre::explore

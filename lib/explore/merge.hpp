@@ -1,4 +1,5 @@
 #pragma once
+// Gamuts of several searches as one.
 
 #include <span>
 #include <vector>

@@ -34,8 +34,8 @@ class ModelSearch final : public Search {
     return BatchRequest{settings_, ledger_.evaluated(), lost_, ledger_.room()};
   }
 
-  std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> answer) override {
-    for (const pattern::Pattern& pattern : answer) {
+  std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> batch) override {
+    for (const pattern::Pattern& pattern : batch) {
       if (ledger_.room() > 0 && !ledger_.seen(pattern)) ledger_.add(pattern);
     }
     return asked_ = ledger_.hand_out();

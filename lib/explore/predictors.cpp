@@ -17,8 +17,8 @@ namespace {
 using surrogate::Predictor;
 
 /// Samples decide on kernels, and networks are trained in full on them, anew only when they have become this many times
-/// more: what fewer say is a good start until then, and equal searches do it at equal places. (Toughness lies under a
-/// floor that every sample moves a little: its kernel is looked for in every batch, some 0.1 s.)
+/// more: a fit to fewer is a good start until then, and equal searches do it at equal places. (Toughness lies under a
+/// floor that every sample moves a little: its kernel is searched in every batch, some 0.1 s.)
 constexpr double kKernelGrowth = 1.3;
 constexpr std::size_t kFirstKernelSamples = 20;
 /// Patterns with the logarithms of their properties. A property that is not positive counts as `kLeast` of a unit.
@@ -41,9 +41,9 @@ std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, cons
   return {trend.begin(), trend.end()};
 }
 
-/// Raises what lies too far below the trend of the first `deciding`. How bad a bad pattern is says nothing about the
-/// good ones, and the few that fall apart at once (a factor of a hundred) would make a process of all others too rough
-/// and too unsure.
+/// Raises what lies too far below the trend of the first `deciding`. The values of bad patterns carry no
+/// information on good ones, and the few that fail at once (a factor of a hundred) would make the process too rough and
+/// too uncertain everywhere.
 void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<double>& values, std::size_t deciding,
                     double deviations) {
   constexpr std::size_t kFewest = 10;
@@ -84,8 +84,8 @@ std::size_t settled_samples(std::size_t size) {
   return stage;
 }
 
-/// Learns upon `base` only while that makes the samples likelier than learning from nothing does: what another model
-/// says of good patterns may be wrong, and is then worse than nothing.
+/// Builds on `base` only while that makes the samples more probable than no base does: predictions of another model for
+/// good patterns may be wrong, and are then worse than none.
 std::shared_ptr<const Predictor> fit_patches(const surrogate::Samples& deciding, const surrogate::Samples& learnt,
                                              std::uint64_t seed, std::shared_ptr<const Predictor> base) {
   auto kernel = surrogate::fit_patch_kernel(deciding, seed, base.get());
@@ -100,7 +100,7 @@ std::shared_ptr<const Predictor> fit_patches(const surrogate::Samples& deciding,
   return surrogate::make_patch_process(learnt, kernel, std::move(base));
 }
 
-/// What a predictor of the remainder adds to a base.
+/// A base predictor plus a predictor of its errors.
 class Sum final : public Predictor {
  public:
   Sum(std::shared_ptr<const Predictor> base, std::unique_ptr<Predictor> remainder)
@@ -111,9 +111,9 @@ class Sum final : public Predictor {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += remainder[i];
     return sum;
   }
-  std::vector<surrogate::Prediction> predict(std::span<const pattern::Pattern> at) const override {
+  std::vector<surrogate::PatternPrediction> predict(std::span<const pattern::Pattern> at) const override {
     const std::vector<double> base = base_->means(at);
-    std::vector<surrogate::Prediction> sum = remainder_->predict(at);
+    std::vector<surrogate::PatternPrediction> sum = remainder_->predict(at);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i].mean += base[i];
     return sum;
   }
@@ -164,7 +164,8 @@ std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int mo
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
   const LearnedSettings& learned = settings.learned;
   const std::size_t stage = settled_samples(samples.size());
-  // What networks were trained on in full must not move, or they would be trained anew at every batch (minutes).
+  // The samples that networks were trained on in full must not change, or they would be trained anew at every batch
+  // (minutes).
   if (learned.predictor == "networks") return fit_networks(logarithms(samples, stage, learned), stage, settings, base);
   const LogSamples all = logarithms(samples, samples.size(), learned);
   const std::vector<Evaluated> chosen = learnt_samples(samples, learned.most_samples);

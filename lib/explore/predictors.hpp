@@ -1,5 +1,5 @@
 #pragma once
-// What `learned` believes: a predictor per property, fitted to what was simulated.
+// The surrogate model of `learned`: a predictor per property, fitted to the simulated samples.
 
 #include <memory>
 #include <span>
@@ -16,14 +16,14 @@ struct Predictors {
 };
 
 /// Which of `samples` (at least one) are learnt from when they are more than `most`: one half are the best by rank, the
-/// other is spread evenly over the rest. Who learns from the best alone no longer knows what makes the others worse.
+/// other is spread evenly over the rest. The best alone do not show what makes the others worse.
 std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int most);
 
 /// Fitted to `samples` (at least one), on top of `base` predictors where there are such. Depends on its arguments only.
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings,
                           const Predictors& base = {});
 
-/// What a search on the predictors maximises: medians, or more where `optimism` asks for so many deviations.
+/// The objective of a search on the predictors: medians, raised by `optimism` deviations.
 std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,
                                             double optimism);
 

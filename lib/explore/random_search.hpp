@@ -1,4 +1,5 @@
 #pragma once
+// Random patterns of the design space (Table 3.2).
 
 #include <memory>
 

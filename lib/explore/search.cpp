@@ -46,13 +46,13 @@ std::vector<optimize::Performance> performances_of(std::span<const Evaluated> sa
   return performances;
 }
 
-std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern> answer) {
-  std::vector<pattern::Pattern> batch = ask();
+std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern> batch) {
+  std::vector<pattern::Pattern> own_batch = ask();
   // One may be longer: the other was the last of a smaller budget.
-  const auto [own, given] = std::ranges::mismatch(batch, answer);
-  if (own != batch.end() && given != answer.end())
-    throw InputError("search: a batch to go on with is that of another search");
-  return batch;
+  const auto [own, given] = std::ranges::mismatch(own_batch, batch);
+  if (own != own_batch.end() && given != batch.end())
+    throw InputError("search: a batch to go on with is that of another search; name another file of batches");
+  return own_batch;
 }
 
 const std::vector<std::string>& algorithms() {
@@ -66,7 +66,8 @@ std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request) {
   if (algorithm == "learned") return learned_batch(batch_request);
   if (algorithm == "tsemo") return tsemo_batch(batch_request);
   if (algorithm == "dgemo") return dgemo_batch(batch_request);
-  throw InputError::format("search: algorithm \"{}\" asks no questions", algorithm);
+  throw InputError::format("search: algorithm \"{}\" has no batch requests, expected learned, tsemo or dgemo",
+                           algorithm);
 }
 
 std::unique_ptr<Search> make_search(const SearchSettings& settings) {

@@ -33,7 +33,7 @@ struct LearnedSettings {
   std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
   int barred_start = 40;         ///< patterns with rigid bars that follow the random ones (none with `former` samples,
                                  ///< nor where `known` ones are as many as both)
-  int barred_candidates = 2000;  ///< of them that every batch may be chosen from, beside what the search visits
+  int barred_candidates = 2000;  ///< of them that every batch may be chosen from, added to those that the search visits
   int generations = 60;          ///< of the search on the predictor
   int population = 100;          ///< of that search
   double optimism = 0.0;         ///< deviations added to predictions while searching on the predictor
@@ -51,15 +51,15 @@ struct LearnedSettings {
 /// `key=value` of all of them, separated by spaces.
 std::string to_text(const LearnedSettings& settings);
 
-/// Young's modulus of patterns, exactly as a simulation would tell it, in Pa; nothing where that fails.
+/// Young's modulus of patterns, exactly as a simulation would compute it, in Pa; empty where that fails.
 using ModulusOf = std::function<std::vector<std::optional<double>>(std::span<const pattern::Pattern>)>;
 
-/// What elasticity tells of any pattern for far less than a simulation (mechanics.hpp). A search does without what is
-/// empty.
+/// Elastic quantities of any pattern for far less than a fracture simulation (mechanics.hpp). A search does without
+/// those that are empty.
 struct Mechanics {
-  ModulusOf modulus_of = {};              ///< asked of the finalists of a batch (hundreds)
-  surrogate::Features cell_modulus = {};  ///< asked of all that a batch's search visits (thousands): one column
-  surrogate::Features cell_loads = {};    ///< the same; where the energy goes, in logarithms
+  ModulusOf modulus_of = {};              ///< computed for the finalists of a batch (hundreds)
+  surrogate::Features cell_modulus = {};  ///< computed for all that a batch's search visits (thousands): one column
+  surrogate::Features cell_loads = {};    ///< the same; distribution of the energy, in logarithms
 };
 
 struct SearchSettings {
@@ -84,7 +84,8 @@ struct BatchRequest {
   int count = 0;                       ///< patterns wanted, at most
 };
 
-/// Deterministic: patterns asked for depend on the settings and what was told only. No pattern is asked for twice.
+/// Deterministic: patterns asked for depend on the settings and the told performances only. No pattern is asked for
+/// twice.
 class Search {
  public:
   virtual ~Search() = default;
@@ -96,16 +97,16 @@ class Search {
   /// failed simulations are left out (they count towards the budget and are not asked for again).
   virtual const std::vector<Evaluated>& evaluated() const = 0;
 
-  /// What the next ask() would have to think about for longer than a moment; nothing when it would not. Who must not
-  /// wait has batch_for() worked out elsewhere and asks with the answer.
+  /// The request behind the next ask() when that would take longer than a moment; empty when it would not. Who must not
+  /// wait has batch_for() computed elsewhere and calls ask_with() with the batch.
   virtual std::optional<BatchRequest> batch_request() const { return std::nullopt; }
-  /// ask() with the answer to question(). Also for going on: batches that were asked for before an interruption need
-  /// not be thought about again. A search that asks no questions throws InputError when it would ask otherwise, and
-  /// asks for as many as it would.
-  virtual std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> answer);
+  /// ask() with the batch of batch_request(). Also for going on: batches that were asked for before an interruption
+  /// need not be computed again. A search without batch requests throws InputError when its own batch is another one,
+  /// and asks for as many patterns as it would.
+  virtual std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> batch);
 };
 
-/// The answer to a question of a search: the patterns to simulate next. A pure function; takes seconds.
+/// The patterns to simulate next, for the request of a search. A pure function; takes seconds.
 std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request);
 
 /// Names of the algorithms: nsga2 (NSGA-II with the three-way mutation and no crossover); nsga2-single-pixel,

@@ -23,10 +23,10 @@ std::vector<Evaluated> search_believed(const Believed& believed, std::span<const
   const auto search = make_evolution(evolution, Variation::three_way);
   std::vector<Evaluated> visited;
   for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
-    const std::vector<optimize::Performance> answers = believed(batch);
-    assert(answers.size() == batch.size());
-    for (std::size_t i = 0; i < batch.size(); ++i) visited.push_back({batch[i], answers[i]});
-    search->tell(std::vector<std::optional<optimize::Performance>>(answers.begin(), answers.end()));
+    const std::vector<optimize::Performance> predicted = believed(batch);
+    assert(predicted.size() == batch.size());
+    for (std::size_t i = 0; i < batch.size(); ++i) visited.push_back({batch[i], predicted[i]});
+    search->tell(std::vector<std::optional<optimize::Performance>>(predicted.begin(), predicted.end()));
   }
   return visited;
 }

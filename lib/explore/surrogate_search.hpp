@@ -1,5 +1,5 @@
 #pragma once
-// NSGA-II on what is believed of patterns, where an evaluation costs next to nothing (2.3.3).
+// NSGA-II on predictions of a surrogate, where an evaluation costs next to nothing (2.3.3).
 
 #include <functional>
 #include <span>

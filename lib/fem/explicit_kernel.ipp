@@ -12,9 +12,9 @@
 
 namespace nacre::fem::NACRE_SIMD {
 
-// clang-format off: the packs come first
+// The packs come first.
+// clang-format off
 #include "fem/simd_packs.hpp"
-
 #include "fem/explicit_law.ipp"
 // clang-format on
 

@@ -10,6 +10,7 @@
 
 #include "measurement/summary.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 

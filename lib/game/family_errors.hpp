@@ -6,7 +6,7 @@
 #include <span>
 
 #include "pattern/layout.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/errors.hpp"
 
 namespace nacre::game {
 

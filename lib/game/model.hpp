@@ -4,7 +4,7 @@
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
 #include "optimize/pareto.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 

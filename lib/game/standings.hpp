@@ -12,7 +12,7 @@
 #include "measurement/specimen_record.hpp"
 #include "measurement/summary.hpp"
 #include "optimize/pareto.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 

@@ -3,6 +3,7 @@
 #include <nlopt.hpp>
 
 #include "optimize/nlopt_optimizer.hpp"
+#include "optimize/recorded_optimizer.hpp"
 #include "optimize/rivals/bayesian_optimizer.hpp"
 #include "optimize/rivals/cma_es.hpp"
 #include "optimize/rivals/random_search.hpp"
@@ -33,6 +34,20 @@ Result<Algorithm> algorithm_from_string(std::string_view name) {
     if (entry.name == name) return entry.algorithm;
   }
   return fail("\"{}\" is no algorithm, expected bayesian, trust_region, random, direct_l, crs2 or cma_es", name);
+}
+
+void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
+  for (std::size_t done = 0; done < told.size();) {
+    const std::vector<Point> points = ask();
+    std::vector<std::optional<double>> values;
+    for (const Point& point : points) {
+      if (done == told.size() || told[done].point != point) throw another_search(done);
+      values.push_back(told[done++].value);
+    }
+    if (points.empty())
+      throw InputError::format("optimiser: {} evaluations, but these settings end after {}", told.size(), done);
+    tell(values);
+  }
 }
 
 std::unique_ptr<BatchOptimizer> make_optimizer(Algorithm algorithm, const BatchOptimizerSettings& settings) {

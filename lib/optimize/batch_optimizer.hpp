@@ -1,5 +1,5 @@
 #pragma once
-// The seam between calibration and the optimiser it uses: minimisation over the unit cube by ask and tell, in batches.
+// The interface of all optimisers: minimisation over the unit cube by ask and tell, in batches.
 
 #include <cstdint>
 #include <memory>
@@ -43,11 +43,11 @@ class BatchOptimizer {
   virtual std::optional<Evaluation> best() const = 0;
   /// Goes on where a search with the same settings stopped: `told` is everything that one was told, in order, in whole
   /// batches. Call it first. Throws InputError when these settings would not have asked for those points; Bayesian
-  /// optimisation, which would have to think the rest anew, looks at the points from before its first model alone.
+  /// optimisation, which would have to refit all its models, checks only the points from before its first model.
   virtual void resume(const std::vector<Evaluation>& told);
 };
 
-/// What make_optimizer() offers.
+/// The algorithms of make_optimizer().
 enum class Algorithm {
   bayesian,      ///< make_bayesian_optimizer
   trust_region,  ///< make_nlopt_optimizer: BOBYQA's quadratic models, with Nelder-Mead in turn

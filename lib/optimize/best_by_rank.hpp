@@ -1,4 +1,5 @@
 #pragma once
+// Selection of NSGA-II (K. Deb et al., IEEE Trans. Evol. Comput. 6, 182 (2002)).
 
 #include <cstddef>
 #include <span>

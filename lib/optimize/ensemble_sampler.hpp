@@ -1,4 +1,5 @@
 #pragma once
+// Markov-chain Monte Carlo: the affine-invariant ensemble sampler.
 
 #include <functional>
 #include <vector>

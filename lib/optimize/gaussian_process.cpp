@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// -(dM/da) / a of matern52(): what the derivatives with respect to lengths and to coordinates share.
+/// -(dM/da) / a of matern52(): the common factor of the derivatives with respect to lengths and to coordinates.
 double matern52_slope(double a) { return (1.0 + a) / 3.0 * std::exp(-a); }
 
 /// Squared distances between the rows of both, times 5.
@@ -33,7 +33,7 @@ double MaternKernel::operator()(const VectorXd& a, const VectorXd& b) const {
   return signal_deviation * signal_deviation * matern52(distance);
 }
 
-GaussianProcess::GaussianProcess(Observations observations, MaternKernel kernel)
+GaussianProcess::GaussianProcess(RegressionData observations, MaternKernel kernel)
     : observations_(std::move(observations)), kernel_(std::move(kernel)) {
   assert(observations_.inputs.rows() == observations_.values.size());
   assert(observations_.inputs.cols() == kernel_.lengths.size());
@@ -71,7 +71,7 @@ VectorXd GaussianProcess::covariances(const VectorXd& at) const {
   });
 }
 
-GaussianProcess::Prediction GaussianProcess::predict(const VectorXd& at) const {
+GaussianProcess::PosteriorValue GaussianProcess::predict(const VectorXd& at) const {
   const VectorXd k = covariances(at);
   const VectorXd reduced = factor_.matrixL().solve(k);
   const double signal = kernel_.signal_deviation * kernel_.signal_deviation;
@@ -90,12 +90,12 @@ VectorXd GaussianProcess::means(const MatrixXd& at) const {
   return (covariances_all(at).transpose() * weights_).array() + mean_;
 }
 
-std::vector<GaussianProcess::Prediction> GaussianProcess::predict_all(const MatrixXd& at) const {
+std::vector<GaussianProcess::PosteriorValue> GaussianProcess::predict_all(const MatrixXd& at) const {
   const double signal = kernel_.signal_deviation * kernel_.signal_deviation;
   const MatrixXd k = covariances_all(at);
   const VectorXd means = k.transpose() * weights_;
   const MatrixXd reduced = factor_.matrixL().solve(k);
-  std::vector<Prediction> predictions;
+  std::vector<PosteriorValue> predictions;
   for (Index i = 0; i < at.rows(); ++i) {
     const double variance = signal - reduced.col(i).squaredNorm();
     predictions.push_back({mean_ + means[i], std::sqrt(std::max(0.0, variance))});
@@ -174,7 +174,7 @@ MaternKernel kernel_at(const std::vector<double>& logarithms) {
 }
 
 struct HyperPosterior {
-  const Observations& observations;
+  const RegressionData& observations;
   const HyperPrior& prior;
 };
 
@@ -217,7 +217,7 @@ double descend(std::vector<double>& at, HyperPosterior& posterior) {
 
 }  // namespace
 
-MaternKernel fit_kernel(const Observations& observations, int restarts, std::uint64_t seed) {
+MaternKernel fit_kernel(const RegressionData& observations, int restarts, std::uint64_t seed) {
   const Index n = observations.values.size();
   const HyperPrior prior(observations.inputs.cols());
   const double mean = n > 0 ? observations.values.mean() : 0.0;
@@ -226,7 +226,7 @@ MaternKernel fit_kernel(const Observations& observations, int restarts, std::uin
   const double scale = variance > 0.0 ? std::sqrt(variance) : 1.0;
   std::vector<double> best = prior.centre;
   if (n >= 3 && variance > 0.0) {
-    Observations standard = observations;
+    RegressionData standard = observations;
     standard.values = (observations.values.array() - mean) / scale;
     standard.noise_variances = observations.noise_variances / variance;
     HyperPosterior posterior{standard, prior};

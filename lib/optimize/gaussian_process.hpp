@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <vector>
 
 namespace nacre::optimize {
 
@@ -15,8 +16,8 @@ struct MaternKernel {
   double operator()(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
 };
 
-/// What is known: values[i] at inputs.row(i) with an error of known variance noise_variances[i].
-struct Observations {
+/// Training data: values[i] at inputs.row(i) with an error of known variance noise_variances[i].
+struct RegressionData {
   Eigen::MatrixXd inputs;  ///< points x dimensions
   Eigen::VectorXd values;
   Eigen::VectorXd noise_variances;  ///< 0: only the learnt noise
@@ -26,15 +27,15 @@ struct Observations {
 /// made.
 class GaussianProcess {
  public:
-  GaussianProcess(Observations observations, MaternKernel kernel);
+  GaussianProcess(RegressionData observations, MaternKernel kernel);
 
-  struct Prediction {
+  struct PosteriorValue {
     double mean = 0.0;
     double deviation = 0.0;  ///< of the function itself, without noise
   };
-  Prediction predict(const Eigen::VectorXd& at) const;
+  PosteriorValue predict(const Eigen::VectorXd& at) const;
   /// Rows of `at` are points; one triangular solve for all of them.
-  std::vector<Prediction> predict_all(const Eigen::MatrixXd& at) const;
+  std::vector<PosteriorValue> predict_all(const Eigen::MatrixXd& at) const;
   /// Means alone, without the cost of deviations.
   Eigen::VectorXd means(const Eigen::MatrixXd& at) const;
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& at) const;
@@ -42,7 +43,7 @@ class GaussianProcess {
   /// With respect to log s, log l_1 ... log l_d, log s_n.
   Eigen::VectorXd log_marginal_gradient() const;
   const MaternKernel& kernel() const { return kernel_; }
-  const Observations& observations() const { return observations_; }
+  const RegressionData& observations() const { return observations_; }
   /// Share of the mean variance that had to be added to the diagonal before the factorisation succeeded; 0 as a rule.
   double jitter() const { return jitter_; }
 
@@ -51,7 +52,7 @@ class GaussianProcess {
   Eigen::VectorXd covariances(const Eigen::VectorXd& at) const;
   Eigen::MatrixXd covariances_all(const Eigen::MatrixXd& at) const;  ///< observations x points
 
-  Observations observations_;
+  RegressionData observations_;
   MaternKernel kernel_;
   Eigen::MatrixXd scaled_;  ///< inputs over lengths
   double mean_ = 0.0;
@@ -64,6 +65,6 @@ class GaussianProcess {
 /// and some twenty edges of the cube), found by L-BFGS on the analytic gradient from a fixed start and `restarts`
 /// random ones. Depends on its arguments only. Fewer than three observations, or values that do not vary, give the
 /// prior's kernel.
-MaternKernel fit_kernel(const Observations& observations, int restarts, std::uint64_t seed);
+MaternKernel fit_kernel(const RegressionData& observations, int restarts, std::uint64_t seed);
 
 }  // namespace nacre::optimize

@@ -24,7 +24,7 @@ namespace {
 // most robust.
 constexpr double kFirstStep = 0.2;
 constexpr double kShrink = 0.5;                // of each new search's step
-constexpr double kSmallestFirstStep = 0.01;    // below it the steps begin again at kFirstStep
+constexpr double kSmallestFirstStep = 0.01;    // below it the steps restart at kFirstStep
 constexpr double kSmallestStepShare = 0.05;    // a search ends at this share of its first step
 constexpr double kPatiencePerDimension = 2.0;  // evaluations without a new best before a search gives way,
 constexpr double kPatience = 10.0;             // and as many more
@@ -49,7 +49,7 @@ class NloptOptimizer final : public BatchOptimizer {
   Point next_start();
   void begin_search();
   bool search_is_stale() const;
-  bool looks_elsewhere() const;
+  bool explores_elsewhere() const;
   std::optional<Point> wanted() const;
   double value_of_nearest(const Point& point) const;
   double penalty() const;
@@ -96,7 +96,7 @@ void NloptOptimizer::add_from_searches() {
   int fruitless = 0;
   while (!full()) {
     if (!search_ || search_is_stale()) begin_search();
-    if (looks_elsewhere()) {
+    if (explores_elsewhere()) {
       batch_.push_back(space_filling_.next());
       continue;
     }
@@ -112,7 +112,7 @@ void NloptOptimizer::add_from_searches() {
   }
 }
 
-/// The first search looked ahead from the first start. It goes on when that is the best one, and else begins anew.
+/// The first search looked ahead from the first start. It goes on when that is the best one, and else restarts.
 void NloptOptimizer::begin_at_best_initial_guess() {
   starts_known_ = true;
   const auto better = [this](const Point& a, const Point& b) { return values_.at(a) < values_.at(b); };
@@ -151,7 +151,7 @@ bool NloptOptimizer::search_is_stale() const {
 /// Whether the next point of this batch is better spent on the rest of the cube: in few dimensions, once two points of
 /// a search that has its first model stand in the batch. (The third guess is worth little: giving it away costs under 3
 /// % in ten dimensions, and in two it halves what is left of Rosenbrock's function after 200 evaluations.)
-bool NloptOptimizer::looks_elsewhere() const {
+bool NloptOptimizer::explores_elsewhere() const {
   const bool has_model = search_ && told_ - search_began_at_ > 2 * settings_.dimension;
   return settings_.dimension <= kFewDimensions && has_model && batch_.size() >= 2;
 }
@@ -183,7 +183,7 @@ double NloptOptimizer::penalty() const {
 
 void NloptOptimizer::tell(const std::vector<std::optional<double>>& values) {
   assert(!batch_.empty() && "tell() without a batch that was asked for");
-  assert(values.size() == batch_.size() && "tell() must answer the whole batch");
+  assert(values.size() == batch_.size() && "tell() needs a value for every point of the batch");
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     if (!values[i]) continue;
     assert(std::isfinite(*values[i]));

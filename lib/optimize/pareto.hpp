@@ -1,5 +1,5 @@
 #pragma once
-// Fronts of two objectives that are both maximised: Young's modulus and toughness.
+// Fronts of two objectives that are both maximised, Young's modulus and toughness: ranks, crowding, hypervolume, gap.
 
 #include <span>
 #include <vector>

@@ -25,8 +25,11 @@ void check_settings(BatchOptimizerSettings& settings) {
 }
 
 InputError another_search(std::size_t evaluation) {
-  return InputError::format("optimiser: evaluation {} is not what these settings ask for; it comes from another search",
-                            evaluation);
+  return InputError::format(
+      "optimiser: evaluation {} is no point that these settings ask for, the record is that of another search: name "
+      "another "
+      "file",
+      evaluation);
 }
 
 RecordedOptimizer::RecordedOptimizer(const BatchOptimizerSettings& settings) : settings_(settings) {
@@ -49,7 +52,7 @@ std::vector<Point> RecordedOptimizer::ask() {
 
 void RecordedOptimizer::tell(const std::vector<std::optional<double>>& values) {
   assert(!asked_.empty() && "tell() without a batch that was asked for");
-  assert(values.size() == asked_.size() && "tell() must answer the whole batch");
+  assert(values.size() == asked_.size() && "tell() needs a value for every point of the batch");
   for (std::size_t i = 0; i < asked_.size(); ++i) keep({std::move(asked_[i]), values[i]});
   asked_.clear();
   told();
@@ -70,20 +73,6 @@ void RecordedOptimizer::restore(const std::vector<Evaluation>& told) {
     keep(told[i]);
   }
   next_start_ = std::min(told.size(), settings_.starts.size());
-}
-
-void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
-  for (std::size_t done = 0; done < told.size();) {
-    const std::vector<Point> points = ask();
-    std::vector<std::optional<double>> values;
-    for (const Point& point : points) {
-      if (done == told.size() || told[done].point != point) throw another_search(done);
-      values.push_back(told[done++].value);
-    }
-    if (points.empty())
-      throw InputError::format("optimiser: {} evaluations, but these settings end after {}", told.size(), done);
-    tell(values);
-  }
 }
 
 std::vector<double> RecordedOptimizer::values(std::size_t count) const {

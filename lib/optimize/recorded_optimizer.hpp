@@ -1,5 +1,5 @@
 #pragma once
-// What the optimisers that are asked batch by batch keep: their settings, everything told, and the best of it.
+// The record of an optimiser that is asked batch by batch: its settings, everything told, and the best of it.
 
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace nacre::optimize {
 /// Throws InputError when dimension, batch or a start is out of range; clamps the starts to the cube.
 void check_settings(BatchOptimizerSettings& settings);
 
-/// The history that is resumed holds a point which these settings would not have asked for.
+/// The error of a resumed history that holds a point which these settings would not have asked for.
 InputError another_search(std::size_t evaluation);
 
 class RecordedOptimizer : public BatchOptimizer {
@@ -34,7 +34,7 @@ class RecordedOptimizer : public BatchOptimizer {
 
   BatchOptimizerSettings settings_;
   std::vector<Evaluation> evaluations_;
-  std::vector<Point> asked_;  ///< not answered yet
+  std::vector<Point> asked_;  ///< not told yet
 
  private:
   void keep(Evaluation evaluation);

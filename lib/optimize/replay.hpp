@@ -1,6 +1,6 @@
 #pragma once
-// NLopt calls its objective back; we want to be asked. A search is therefore run anew each time on the values known so
-// far, until it wants a point without one.
+// Ask and tell for NLopt, which calls its objective back: a search is run anew each time on the values known so far,
+// until it wants a point without one.
 
 #include <functional>
 #include <optional>

@@ -1,4 +1,5 @@
 #pragma once
+// Sobol's low-discrepancy sequence.
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,5 @@
 #pragma once
+// The additive low-discrepancy sequence x_n = x_0 + n (1/g, 1/g^2, ...) mod 1.
 
 #include <cstdint>
 

@@ -34,7 +34,7 @@ std::vector<const ResidualRow*> rows_of(const Diagnosis& d, const ContrastView& 
   return rows;
 }
 
-/// What a contrast looks along, one number per row: a descriptor of the specimens, or what the base model predicts in
+/// The abscissa of a contrast, one number per row: a descriptor of the specimens, or the base model's prediction in
 /// MPa.
 std::vector<double> abscissae(const Diagnosis& d, const ContrastView& view,
                               const std::vector<const ResidualRow*>& rows) {
@@ -127,7 +127,7 @@ std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) 
   return figures;
 }
 
-std::string feature_figure(const Diagnosis& d) {
+FeatureFigure feature_figure(const Diagnosis& d) {
   std::map<Feature, std::pair<double, double>> sums;
   std::map<Feature, int> counts;
   for (const ResidualRow& row : d.residuals) {
@@ -135,7 +135,7 @@ std::string feature_figure(const Diagnosis& d) {
     sums[row.feature].second += std::pow((row.measured - row.extended) / row.standard_error, 2);
     ++counts[row.feature];
   }
-  if (sums.size() < 3) return "";
+  if (sums.size() < 3) return {};
   std::vector<PlotPoint> base, extended;
   std::vector<std::string> hints;
   std::vector<double> ys = {0.0, 2.0};
@@ -148,10 +148,10 @@ std::string feature_figure(const Diagnosis& d) {
     hints.push_back(fmt::format("{}: {}", x, in_words(feature)));
     x += 1.0;
   }
-  std::string legend;
-  for (const std::string& hint : hints) legend += (legend.empty() ? "" : "; ") + hint;
-  Plot plot({.title = "Where in the curve",
-             .x_label = "feature (numbers below)",
+  std::string numbers;
+  for (const std::string& hint : hints) numbers += (numbers.empty() ? "" : "; ") + hint;
+  Plot plot({.title = "Residuals by feature of the curve",
+             .x_label = "feature of the curve, by number",
              .y_label = "residual, standard errors",
              .x = {0.0, x},
              .y = padded(ys),
@@ -160,7 +160,7 @@ std::string feature_figure(const Diagnosis& d) {
   plot.zero_line();
   plot.dots(base, Ink::measured, "base model", hints);
   if (d.extended_fit != d.base_fit) plot.rings(extended, Ink::simulated, "extended model", hints);
-  return "<div>" + plot.svg() + "<p class=\"quiet\">" + escaped(legend) + "</p></div>";
+  return {plot.svg(), numbers};
 }
 
 std::vector<std::string> diagnosis_curve_figures(const Diagnosis& d, std::size_t most) {

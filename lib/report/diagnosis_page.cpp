@@ -7,12 +7,14 @@
 
 #include "base/statistics.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/settings.hpp"
+#include "diagnosis/summary.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "pattern/coupons.hpp"
 #include "report/diagnosis_figures.hpp"
-#include "report/report_sections.hpp"
-#include "report/report_style.hpp"
+#include "report/page.hpp"
+#include "report/report_diagnosis.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 
@@ -28,14 +30,23 @@ bool is_undecided(const Diagnosis& d) {
   return d.verdict == Verdict::ambiguous && d.possible.empty() && d.candidates.empty();
 }
 
+/// Effects that act together: "a with b".
+std::string names_of(const std::vector<std::string>& effects, std::string_view between) {
+  std::string names;
+  for (const std::string& effect : effects)
+    names += fmt::format("{}{}", names.empty() ? "" : between, material::effect_in_words(effect));
+  return names;
+}
+
+/// Plain.
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
-      return "Nothing is wrong beyond noise";
+      return "Nothing is missing: the residuals are noise";
     case Verdict::named: {
-      std::string names;
-      for (const auto& effect : d.effects) names += (names.empty() ? "" : " and ") + effect_name(effect.name);
-      return "The cause is " + names;
+      std::vector<std::string> effects;
+      for (const auto& effect : d.effects) effects.push_back(effect.name);
+      return "The cause is " + names_of(effects, " and ");
     }
     case Verdict::ambiguous:
       return is_undecided(d) ? "These data cannot tell yet" : "Something is wrong; these data leave several causes";
@@ -45,175 +56,195 @@ std::string headline(const Diagnosis& d) {
   return "Something is wrong that no known cause explains";
 }
 
-std::string figures(const std::vector<std::string>& svgs) {
-  std::string html = "<div class=\"figures\">\n";
-  for (const std::string& svg : svgs) html += svg;
-  return html + "</div>\n";
+void add_figures(Exhibit& exhibit, std::vector<std::string> svgs) {
+  for (std::string& svg : svgs) exhibit.figures.push_back({"", std::move(svg)});
 }
 
-std::string where_section(const Diagnosis& d) {
-  std::string content;
+/// What the residuals follow.
+std::string trend_in_words(const Diagnosis& d) {
   if (d.verdict == Verdict::base_sufficient) {
-    content += paragraph(
-        "What is left between measurement and simulation is of the size of scatter and numerics, and lines up with "
-        "nothing.");
-  } else if (!diagnosis::lines_up(d)) {
-    content += paragraph(
-        fmt::format("What is left after the best fit of the base model lines up with nothing that was looked for{}{}.",
-                    d.loudest.empty() ? "" : "; the largest residuals are those of ", escaped(d.loudest)));
-  } else {
-    const auto& c = d.contrasts.front();
-    content += paragraph(
-        fmt::format("What is left after the best fit of the base model lines up most with <strong>{}</strong>: {} "
-                    "standard deviations, where chance alone gives as much in a share {} of cases.",
-                    escaped(c.name), figure(c.statistic), chance(c.p_family_wise)));
+    return "The residuals, measured less predicted, are of the size of scatter and discretisation error, and follow "
+           "nothing that was examined.";
   }
-  std::vector<std::string> pictures = residual_figures(d, 6);
-  if (const std::string whole = feature_figure(d); !whole.empty()) pictures.push_back(whole);
-  content += figures(pictures);
-  content += paragraph(
-      "Pictures of the strongest trends, with their size in standard deviations (σ). Each mark is one group of "
-      "replicates; bars are one standard error, from the replicates and from what the "
-      "simulation's own elements leave open.",
-      "quiet");
-  return section("where", "Where the simulation is off", content);
+  if (!diagnosis::lines_up(d)) {
+    return fmt::format("After the best fit of the base model the residuals follow nothing that was examined{}{}.",
+                       d.loudest.empty() ? "" : "; the largest are those of ", escaped(d.loudest));
+  }
+  const auto& c = d.contrasts.front();
+  return fmt::format(
+      "After the best fit of the base model the residuals follow most <strong>{}</strong>: by {} standard deviations. "
+      "The probability that chance alone does that: {}.",
+      escaped(c.name), figure(c.statistic), chance(c.p_family_wise));
 }
 
-std::string curve_part(const Diagnosis& d) {
-  if (d.curves.empty()) return "";
-  return section(
-      "curves", "Curves, measured and simulated",
-      figures(diagnosis_curve_figures(d, 6)) + paragraph("The groups in which the base model is off most. Simulated "
-                                                         "curves are those of the nearest parameters that were run.",
-                                                         "quiet"));
+Exhibit where_exhibit(const Diagnosis& d) {
+  Exhibit exhibit{.id = "where", .heading = "Where the simulation is off"};
+  exhibit.notes.push_back(trend_in_words(d));
+  add_figures(exhibit, residual_figures(d, 6));
+  if (FeatureFigure whole = feature_figure(d); !whole.svg.empty()) {
+    exhibit.figures.push_back({"", std::move(whole.svg)});
+    exhibit.fine_print.push_back("Features of the curve: " + escaped(whole.numbers) + ".");
+  }
+  exhibit.fine_print.push_back(
+      "The strongest trends, with their size in standard deviations (σ). Each mark is one group of replicates; bars "
+      "are one standard error, of the replicates and of the discretisation.");
+  return exhibit;
 }
 
-/// A number that an effect takes beside its size.
+Exhibit curve_exhibit(const Diagnosis& d) {
+  Exhibit exhibit{.id = "curves", .heading = "Curves, measured and simulated"};
+  add_figures(exhibit, diagnosis_curve_figures(d, 6));
+  exhibit.fine_print.push_back(
+      "The groups in which the base model is off most. Simulated curves are those of the nearest parameters that were "
+      "run.");
+  return exhibit;
+}
+
+/// A further number of an effect, after its size.
 std::string further_in_words(const material::EffectParameter& parameter, const diagnosis::FittedNumber& number) {
   return fmt::format("With it: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
                      quantity(number.value), escaped(material::unit_behind_number(parameter.unit)),
                      quantity(number.interval_low), quantity(number.interval_high), escaped(parameter.meaning));
 }
 
-std::string cause_section(const Diagnosis& d) {
-  std::string content;
-  for (const auto& named : d.effects) {
-    const material::Effect* effect = material::find_effect(named.name);
-    content += fmt::format("<h3>{}</h3>\n", effect_name(named.name));
-    if (effect != nullptr) content += paragraph(escaped(effect->explanation));
-    const std::string meaning = effect != nullptr ? escaped(effect->parameters.front().meaning) : "";
-    content +=
-        paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
-                              quantity(named.parameter), escaped(material::unit_behind_number(named.unit)),
-                              quantity(named.interval_low), quantity(named.interval_high), meaning));
-    for (std::size_t p = 0; effect != nullptr && p < named.further.size(); ++p)
-      content += paragraph(further_in_words(effect->parameters[p + 1], named.further[p]));
-    if (effect != nullptr)
-      content +=
-          paragraph(effect->side == material::EffectSide::measurement
-                        ? "This is a fault of the measurement, not of the material: it corrects comparisons, designs "
-                          "are not to be chosen by it."
-                        : "This is physics of the material or the print: from now on the simulator can carry it.");
-  }
+/// A named cause: what it is, its size, and what that means.
+Exhibit named_part(const diagnosis::NamedEffect& named) {
+  Exhibit part{.id = "", .heading = std::string(material::effect_in_words(named.name))};
+  const material::Effect* effect = material::find_effect(named.name);
+  if (effect != nullptr) part.notes.push_back(escaped(effect->explanation));
+  const std::string meaning = effect != nullptr ? escaped(effect->parameters.front().meaning) : "";
+  part.notes.push_back(
+      fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
+                  quantity(named.parameter), escaped(material::unit_behind_number(named.unit)),
+                  quantity(named.interval_low), quantity(named.interval_high), meaning));
+  if (effect == nullptr) return part;
+  for (std::size_t p = 0; p < named.further.size(); ++p)
+    part.notes.push_back(further_in_words(effect->parameters[p + 1], named.further[p]));
+  part.notes.push_back(effect->side == material::EffectSide::measurement
+                           ? "This is a fault of the measurement, not of the material: it corrects comparisons, but "
+                             "designs are not to be chosen by it."
+                           : "This is physics of the material or the print: from now on the simulator can include it.");
+  return part;
+}
+
+Exhibit cause_exhibit(const Diagnosis& d) {
+  Exhibit exhibit{.id = "cause", .heading = "The cause"};
+  for (const auto& named : d.effects) exhibit.parts.push_back(named_part(named));
   if (d.verdict == Verdict::ambiguous) {
-    std::string list;
-    for (const auto& model : d.possible) {
-      std::string names;
-      for (const std::string& name : model) names += (names.empty() ? "" : " with ") + effect_name(name);
-      list += fmt::format("<li>{}</li>\n", names);
-    }
-    content += paragraph("Each of these explains the data as well as the others:") + "<ul>" + list + "</ul>\n";
-    if (!d.common_ground.empty()) content += paragraph("Common to all of them: " + effect_name(d.common_ground) + ".");
+    exhibit.notes.push_back(
+        fmt::format("Each of these explains the data as well as the others{}:",
+                    d.common_ground.empty() ? "" : "; common to all of them: " + effect_name(d.common_ground)));
+    for (const auto& model : d.possible) exhibit.list.push_back(escaped(names_of(model, " with ")));
   }
   if (d.verdict == Verdict::unexplained) {
-    content += paragraph(
-        "No cause is named; the sentence above says why. The simulation should not be extended by the one that comes "
-        "nearest: it may predict better for the wrong reason.");
-    if (d.partial_gain) content += paragraph("Of the nearest: " + escaped(gain_in_words(*d.partial_gain)));
+    exhibit.notes.push_back(
+        "No cause is named; the sentence above says why. The simulation should not be extended by the nearest one: it "
+        "may predict better for the wrong reason.");
+    if (d.partial_gain) exhibit.notes.push_back("Of the nearest: " + escaped(gain_in_words(*d.partial_gain)));
   }
-  if (content.empty()) content = paragraph("No cause is needed.");
-  return section("cause", "The cause", content);
+  if (exhibit.notes.empty() && exhibit.parts.empty()) exhibit.notes.push_back("No cause is needed.");
+  return exhibit;
 }
 
-std::string status_words(const CandidateEffect& c, Verdict verdict) {
-  if (c.status == "in_set") return "<strong>explains it</strong>";
-  const char* helps =
-      verdict == Verdict::unexplained ? "helps, but cannot be named" : "helps, but others explain it better";
-  if (c.status == "excluded")
-    return c.p_family_wise <= diagnosis::DiagnosisSettings{}.name_level ? helps : "no sign of it";
-  if (c.status == "invisible") return "invisible on these data (not: absent)";
-  return "these tests cannot say";
+/// The status of a candidate effect and why.
+std::string status_cell(const CandidateEffect& c, Verdict verdict) {
+  const std::string status = escaped(status_in_words(c.status));
+  if (c.status == "in_set") return fmt::format("<strong>{}</strong>", status);
+  if (c.status == "invisible") return status + " (it may act all the same)";
+  if (c.status != "excluded") return status + " (these tests cannot show it)";
+  if (c.p_family_wise > diagnosis::DiagnosisSettings{}.name_level) return status + " (no sign of it)";
+  return status + (verdict == Verdict::unexplained ? " (improves the fit, but cannot be named)"
+                                                   : " (improves the fit, but others explain the data better)");
 }
 
-constexpr const char* kColumnsOfRivals =
-    "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found, counted where the "
-    "base model stands (a name is judged once more at constants of its own); below {:.1f} it cannot be told from "
-    "nothing. Hidden by the base: share of its traces that other constants of the materials "
-    "imitate. Seen from: the size whose traces these specimens would have shown; a smaller one may be there. Cosine 1: "
-    "two causes look alike on these specimens. Chance: how often the best of all causes would look "
-    "as good by accident.";
+constexpr const char* kCandidateColumns =
+    "SNR: what refitted base parameters leave of the effect's signature, in standard errors, at its fitted size, or at "
+    "a typical one where nothing was found (a named effect is judged once more at parameters of its own). Below {:.1f} "
+    "it is not visible. Visible from: the size that these specimens would have shown; a smaller one may act. "
+    "Collinearity 1: these specimens cannot tell the two effects apart. Chance: probability that the best of all "
+    "candidates does as well by accident.";
 
 /// From which size on an effect would have shown: "0.31 pixels".
-std::string seen_from(const CandidateEffect& c) {
+std::string visible_from(const CandidateEffect& c) {
   if (!c.smallest_seen) return "–";
   const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
   return quantity(*c.smallest_seen) + escaped(material::unit_behind_number(unit));
 }
 
-std::string rivals_section(const Diagnosis& d) {
-  std::string rows;
+ExhibitTable candidate_table(const Diagnosis& d) {
+  ExhibitTable table{
+      .name = "",
+      .columns = {{"", "candidate effect"},
+                  {"", "status"},
+                  {"", "SNR", "Signal-to-noise ratio: how visible the effect is in these data"},
+                  {"", "imitated by base model", "Share of its signature that refitted base parameters imitate"},
+                  {"", "visible from", "The size from which on these specimens would have shown it"},
+                  {"", "most similar effect (collinearity)", "1: no data of this kind tell the two apart"},
+                  {"", "improvement of fit (chi squared)",
+                   "How much chi squared falls when the effect joins the refitted base model"},
+                  {"", "chance", "Probability that the best of all candidates does as well by accident"}}};
+  table.look = "words wrapped";
   for (const CandidateEffect& c : d.candidates) {
     const bool acts = c.status != "not_applicable";
-    rows += table_row(
-        {effect_name(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–",
-         acts ? percent(c.absorption) : "–", seen_from(c),
-         c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", effect_name(c.nearest_rival), figure(c.rival_cosine)),
-         acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
+    table.add({shown_cell(effect_name(c.name)), shown_cell(status_cell(c, d.verdict)),
+               shown_cell(acts ? figure(c.signal_to_noise) : "–"), shown_cell(acts ? percent(c.absorption) : "–"),
+               shown_cell(visible_from(c)),
+               shown_cell(c.nearest_rival.empty()
+                              ? "–"
+                              : fmt::format("{} ({})", effect_name(c.nearest_rival), figure(c.rival_cosine))),
+               shown_cell(acts ? figure(c.statistic) : "–"), shown_cell(acts ? chance(c.p_family_wise) : "–")});
   }
-  return section("rivals", "What else could explain it",
-                 table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "seen from",
-                                   "most like (cosine)", "drop of χ²", "chance"}),
-                       rows, "words wrapped") +
-                     paragraph(fmt::format(kColumnsOfRivals, diagnosis::kVisibleSignal), "quiet"));
+  return table;
 }
 
-std::string gain_section(const Diagnosis& d) {
-  if (!d.gain) return "";
-  std::string rows;
-  for (const auto& g : d.gain->features)
-    rows += table_row({std::string(in_words(g.feature)), std::string(shown_unit(g.feature)),
-                       figure(shown(g.feature, g.before)), figure(shown(g.feature, g.after)),
-                       figure(shown(g.feature, g.noise))});
-  return section(
-      "gain", "What the extended model gains",
-      paragraph(escaped(gain_in_words(*d.gain) + choice_in_words(*d.gain))) +
-          table(header_row({"mean error on held-out designs", "unit", "base", "extended", "noise alone"}), rows));
+Exhibit candidate_exhibit(const Diagnosis& d) {
+  Exhibit exhibit{.id = "rivals", .heading = "Candidate effects: what else could explain it"};
+  exhibit.tables.push_back(candidate_table(d));
+  exhibit.fine_print.push_back(fmt::format(kCandidateColumns, diagnosis::kVisibleSignal));
+  return exhibit;
+}
+
+Exhibit gain_exhibit(const diagnosis::Gain& gain) {
+  Exhibit exhibit{.id = "gain", .heading = "What the extended model gains"};
+  exhibit.notes.push_back(escaped(gain_in_words(gain) + choice_in_words(gain)));
+  ExhibitTable table{.name = "",
+                     .columns = {{"", "mean error on held-out designs", "Designs kept out of the fit, in turn"},
+                                 {"", "unit"},
+                                 {"", "base model"},
+                                 {"", "extended model"},
+                                 {"", "noise alone", "Error that scatter and discretisation leave of any model"}}};
+  for (const auto& g : gain.features)
+    table.add({text_cell(in_words(g.feature)), text_cell(shown_unit(g.feature)),
+               shown_cell(figure(shown(g.feature, g.before))), shown_cell(figure(shown(g.feature, g.after))),
+               shown_cell(figure(shown(g.feature, g.noise)))});
+  exhibit.tables.push_back(std::move(table));
+  return exhibit;
 }
 
 /// Why no test is proposed.
-std::string nothing_asked_for(const Diagnosis& d) {
-  const auto invisible = std::count_if(d.candidates.begin(), d.candidates.end(),
-                                       [](const CandidateEffect& c) { return c.status == "invisible"; });
-  if (d.verdict != diagnosis::Verdict::base_sufficient || invisible == 0)
+std::string why_no_test(const Diagnosis& d) {
+  const auto invisible = std::ranges::count(d.candidates, "invisible", &CandidateEffect::status);
+  if (d.verdict != Verdict::base_sufficient || invisible == 0)
     return "No two models are left that another specimen would tell apart.";
   return fmt::format(
-      "{} of the causes above would leave nothing visible on these specimens: they are not absent. "
-      "<code>nacre diagnose SET --plan</code> says which specimens would show them.",
-      invisible);
+      "{} of the effects above {} not visible on these specimens and may act all the same. "
+      "<code>nacre diagnose SET --plan</code> says which specimens would show {}.",
+      invisible, invisible == 1 ? "is" : "are", invisible == 1 ? "it" : "them");
 }
 
-std::string next_section(const Diagnosis& d) {
-  std::string list;
+Exhibit next_exhibit(const Diagnosis& d) {
+  Exhibit exhibit{.id = "next", .heading = "The next test"};
   for (const auto& e : d.next_experiments) {
-    list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens; {}.</li>\n",
-                        tester::to_string(e.test), design_name(pattern::readable_name(e.design)),
-                        e.conditions.orientation_deg, e.conditions.strain_rate_per_s, e.conditions.thickness_mm,
-                        e.replicates, escaped(e.reason));
+    exhibit.list.push_back(fmt::format(
+        "<strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens; {}.", tester::to_string(e.test),
+        design_name(pattern::readable_name(e.design)), e.conditions.orientation_deg, e.conditions.strain_rate_per_s,
+        e.conditions.thickness_mm, e.replicates, escaped(e.reason)));
   }
-  return section("next", "The next test", list.empty() ? paragraph(nothing_asked_for(d)) : "<ol>\n" + list + "</ol>\n");
+  if (exhibit.list.empty()) exhibit.notes.push_back(why_no_test(d));
+  return exhibit;
 }
 
-/// How well means are known, where the features are in question.
+/// How well means are known.
 std::string noise_in_words(const Diagnosis& d) {
   std::string words = d.noise_known ? fmt::format("Replicates scatter by {}", percent(d.replicate_sd))
                                     : fmt::format("A scatter of {} is assumed", percent(d.replicate_sd));
@@ -225,38 +256,51 @@ std::string noise_in_words(const Diagnosis& d) {
   };
   if (const double error = error_of(diagnosis::Feature::log_modulus); error > 0.0)
     words += fmt::format(
-        "; of a modulus the simulation's elements leave {} by layout and {} that all layouts share; a "
-        "design's mean is known to {} but for what is shared",
+        "; the discretisation leaves an error of {} in the modulus of a layout and {} that all layouts share; a "
+        "design's mean is known to {} but for the shared part",
         percent(d.discretisation_sd), percent(d.discretisation_shared_sd), percent(error));
   if (const double error = error_of(diagnosis::Feature::log_toughness); error > 0.0)
     words +=
-        fmt::format("; a design's toughness, replicates and elements together, to a factor of {:.2f}", std::exp(error));
-  return words;
+        fmt::format("; a design's toughness is known to a factor of {:.2f}, replicates and discretisation together",
+                    std::exp(error));
+  return words + ".";
+}
+
+Exhibit method_exhibit(const Diagnosis& d, tester::Fidelity fidelity) {
+  Exhibit exhibit{.id = "method", .heading = "How it was computed"};
+  exhibit.notes.push_back(noise_in_words(d));
+  exhibit.notes.push_back(fmt::format("Fidelity {}; {} fracture simulations. Procedure {}.",
+                                      tester::to_string(fidelity), d.simulations, escaped(d.procedure)));
+  return exhibit;
 }
 
 /// All that was found, and how.
-std::string findings(const Diagnosis& d, tester::Fidelity fidelity) {
-  return where_section(d) + curve_part(d) + cause_section(d) + rivals_section(d) + gain_section(d) + next_section(d) +
-         paragraph(fmt::format("{}. Fidelity {}; {} fracture simulations. Procedure {}.", noise_in_words(d),
-                               tester::to_string(fidelity), d.simulations, escaped(d.procedure)),
-                   "quiet");
+std::vector<Exhibit> findings(const Diagnosis& d, tester::Fidelity fidelity) {
+  std::vector<Exhibit> exhibits = {where_exhibit(d)};
+  if (!d.curves.empty()) exhibits.push_back(curve_exhibit(d));
+  exhibits.push_back(cause_exhibit(d));
+  exhibits.push_back(candidate_exhibit(d));
+  if (d.gain) exhibits.push_back(gain_exhibit(*d.gain));
+  exhibits.push_back(next_exhibit(d));
+  exhibits.push_back(method_exhibit(d, fidelity));
+  return exhibits;
 }
 
 }  // namespace
 
 std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, tester::Fidelity fidelity) {
-  const std::string title = fmt::format("Diagnosis of {}", escaped(set));
-  std::string page = page_begin(title);
-  page += fmt::format("<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", title, headline(d));
-  page += paragraph(escaped(d.summary), "standing");
+  const std::string title = "Diagnosis of " + set;
+  std::string content = paragraph(escaped(d.summary), "standing");
   if (!d.noise_known)
-    page +=
-        paragraph("A scatter of 2 % is assumed where there are no replicates: what is said of those tests hangs on it.",
-                  "warning");
+    content += paragraph(
+        "Where there are no replicates a scatter of 2 % is assumed: what is said of those tests depends on it.",
+        "warning");
   if (fidelity == tester::Fidelity::tiny)
-    page += paragraph("Tiny fidelity: specimens of a single unit. The figures serve tests of the program.", "warning");
-  if (!is_undecided(d)) page += findings(d, fidelity);
-  return page + "</main>\n</body>\n</html>\n";
+    content += paragraph(
+        "Fidelity <code>tiny</code>: specimens of a single unit, for tests of the program. The figures mean nothing.",
+        "warning");
+  return render_page({.title = title, .eyebrow = title, .heading = headline(d), .content = content},
+                     is_undecided(d) ? std::vector<Exhibit>{} : findings(d, fidelity));
 }
 
 }  // namespace nacre::report

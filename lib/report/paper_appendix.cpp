@@ -1,10 +1,9 @@
-// Tables A.3 and A.4: every measured design by every round's model.
+#include "report/paper_appendix.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "report/paper.hpp"
 #include "report/report_data.hpp"
 
 namespace nacre::report {
@@ -12,7 +11,7 @@ namespace {
 
 Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading,
                  std::optional<double> game::DesignValues::*property) {
-  Exhibit exhibit{.id = id, .heading = heading, .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = id, .heading = heading};
   std::vector<MeasuredPattern> measured = measured_patterns(source.run, newest_round(source.run).value_or(0));
   if (measured.empty()) {
     exhibit.notes.push_back("No pattern of this run has been measured in both tests yet.");
@@ -21,28 +20,25 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
   std::ranges::stable_sort(measured, {}, &MeasuredPattern::round);
   const bool is_modulus = property == &game::DesignValues::modulus_pa;
   const auto value = [&](const std::optional<double>& pa) { return is_modulus ? gpa_cell(pa) : mpa_cell(pa); };
-  PaperTable table{.name = id,
-                   .columns = {{"round", "R"},
-                               {"number", "No."},
-                               {"design", "design"},
-                               {"rigid_fraction", "VW%"},
-                               {"measured_pa", "exp."}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
-  for (const auto& [model, answers] : source.answers) {
-    table.columns.push_back(
-        {fmt::format("simulated_pa_r{}", model), model == 0 ? "sim. (IR)" : fmt::format("sim. (R{})", model)});
-    table.columns.push_back({fmt::format("error_r{}", model), "err."});
+  ExhibitTable table{.name = id,
+                     .columns = {{"round", "round", "In which the design was measured first"},
+                                 {"number", "no."},
+                                 {"design", "design"},
+                                 {"rigid_fraction", "rigid fraction"},
+                                 {"measured_pa", "measured"}}};
+  for (const auto& [model, predicted] : source.predictions) {
+    const std::string group = fmt::format("model of round {}", model);
+    table.columns.push_back({fmt::format("simulated_pa_r{}", model), "predicted", "", group});
+    table.columns.push_back({fmt::format("error_r{}", model), "error", "Relative to the measured value", group});
   }
   int number = 0, missing = 0;
   for (const MeasuredPattern& m : measured) {
     const double truth = is_modulus ? m.mean.modulus_pa : m.mean.toughness_pa;
     std::vector<Cell> row = {text_cell(std::to_string(m.round)), text_cell(std::to_string(++number)),
                              design_cell(m.pattern.key()), share_cell(m.pattern.rigid_fraction()), value(truth)};
-    for (const auto& [model, answers] : source.answers) {
-      const auto found = answers.find(m.pattern.key());
-      const std::optional<double> simulated = found == answers.end() ? std::nullopt : found->second.*property;
+    for (const auto& [model, predicted] : source.predictions) {
+      const auto found = predicted.find(m.pattern.key());
+      const std::optional<double> simulated = found == predicted.end() ? std::nullopt : found->second.*property;
       missing += !simulated;
       row.push_back(value(simulated));
       row.push_back(share_cell(error_of(simulated, truth)));
@@ -50,14 +46,13 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
     table.add(std::move(row));
   }
   exhibit.notes.push_back(
-      fmt::format("{}; a model's column beside designs of a later round holds what that model, which does not know "
-                  "them, says of them, as the thesis' blue figures. What was foretold of proposals is a mean over "
-                  "redraws (Table 3.5).",
+      fmt::format("{}. For designs of a later round a model's column holds out-of-sample predictions, as the thesis' "
+                  "blue figures do. Table 3.5 differs: there a proposal's prediction is a mean over realisations.",
                   is_modulus ? "E in GPa" : "T in MPa"));
   if (missing > 0)
     exhibit.notes.push_back(
-        fmt::format("– : {} pairs of design and model were not simulated in this run (the thesis simulates all "
-                    "measured designs with its first model, a game of nacre only those it needs).",
+        fmt::format("–: {} pairs of design and model were not simulated in this run. The thesis simulates all "
+                    "measured designs with its first model, a game of nacre only those that it needs.",
                     missing));
   exhibit.tables.push_back(std::move(table));
   return exhibit;

@@ -1,4 +1,4 @@
-// Exhibits of the families that measurements propose: Figures 3-12 and 3-13.
+#include "report/paper_families.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "report/paper.hpp"
 #include "report/report_data.hpp"
 #include "report/report_figures.hpp"
 #include "report/report_text.hpp"
@@ -42,17 +41,14 @@ std::string families_figure(const PaperSource& source, const std::vector<Measure
   return plot.svg();
 }
 
-PaperTable seed_table(const PaperSource& source, const std::vector<MeasuredPattern>& measured) {
-  PaperTable table{.name = "figure-3-12",
-                   .columns = {{"family", "family"},
-                               {"pattern", "pattern"},
-                               {"rigid_fraction", "VW%"},
-                               {"modulus_pa", "E (GPa)"},
-                               {"toughness_pa", "T (MPa)"},
-                               {"round", "round"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
+ExhibitTable seed_table(const PaperSource& source, const std::vector<MeasuredPattern>& measured) {
+  ExhibitTable table{.name = "figure-3-12",
+                     .columns = {{"family", "family"},
+                                 {"pattern", "pattern"},
+                                 {"rigid_fraction", "rigid fraction"},
+                                 {"modulus_pa", "E (GPa)"},
+                                 {"toughness_pa", "T (MPa)"},
+                                 {"round", "measured in round"}}};
   for (const families::SeedFamily& group : source.groups) {
     for (const pattern::Pattern& seed : group.seeds) {
       const MeasuredPattern* m = find_measured(measured, seed.key());
@@ -73,13 +69,11 @@ std::vector<PlotPoint> curve_of(const MeasuredCurves& curves, const std::string&
   return found == curves.end() ? std::vector<PlotPoint>{} : curve_points(found->second[found->second.size() / 2]);
 }
 
-/// The seeds' curves and, beside any of them, that of the rigid specimen.
-PaperTable curve_table(const PaperSource& source, const MeasuredCurves& curves) {
-  PaperTable table{.name = "figure-3-13",
-                   .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+/// The seeds' curves and, where there are any, that of the rigid specimen.
+ExhibitTable curve_table(const PaperSource& source, const MeasuredCurves& curves) {
+  ExhibitTable table{.name = "figure-3-13",
+                     .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}},
+                     .on_page = false};
   const auto keep = [&](const std::string& family, const std::string& design) {
     for (const PlotPoint& p : curve_of(curves, design))
       table.add({text_cell(family), text_cell(design), number_cell(p.x), number_cell(p.y)});
@@ -110,7 +104,8 @@ std::string curve_figure(const families::SeedFamily& group, Ink ink, const Measu
              .y = y,
              .width = 350,
              .height = 260});
-  if (curves.contains("rigid")) plot.line(curve_of(curves, "rigid"), Ink::homogeneous, Stroke::dashed, "VW");
+  if (curves.contains("rigid"))
+    plot.line(curve_of(curves, "rigid"), Ink::homogeneous, Stroke::dashed, "rigid ink (VW)");
   bool first = true;
   for (const pattern::Pattern& seed : group.seeds) {
     if (!curves.contains(seed.key())) continue;
@@ -123,11 +118,7 @@ std::string curve_figure(const families::SeedFamily& group, Ink ink, const Measu
 }  // namespace
 
 Exhibit family_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-12",
-                  .heading = "Figure 3-12: Families near the measured front",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-12", .heading = "Figure 3-12: Families near the measured front"};
   const auto measured = measured_patterns(source.run, newest_round(source.run).value_or(0));
   if (source.groups.empty()) {
     exhibit.notes.push_back("No pattern of this run has been measured in both tests yet: there are no families.");
@@ -135,8 +126,8 @@ Exhibit family_exhibit(const PaperSource& source) {
   }
   exhibit.figures.push_back({"figure-3-12", families_figure(source, measured)});
   exhibit.notes.push_back(
-      fmt::format("Shown: {}. The thesis found four among 13 near-Pareto designs by eye; here near-Pareto means first "
-                  "or second rank, and designs are grouped by earth mover's distance and properties (average linkage, "
+      fmt::format("Shown: {}. The thesis found four among 13 near-Pareto designs by eye. Here near-Pareto means first "
+                  "or second rank; designs are grouped by earth mover's distance and properties (average linkage, "
                   "largest silhouette; one family where nothing stands apart).",
                   source.groups_from));
   exhibit.tables.push_back(seed_table(source, measured));
@@ -144,13 +135,9 @@ Exhibit family_exhibit(const PaperSource& source) {
 }
 
 Exhibit family_curve_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-13",
-                  .heading = "Figure 3-13: Stress-strain curves of the seeds",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-13", .heading = "Figure 3-13: Stress-strain curves of the seeds"};
   const MeasuredCurves curves = measured_curves(source.run);
-  PaperTable table = curve_table(source, curves);
+  ExhibitTable table = curve_table(source, curves);
   if (table.rows.empty()) {
     exhibit.notes.push_back("No stress-strain curve of a seed was measured in this run.");
     return exhibit;
@@ -166,10 +153,11 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
       exhibit.figures.push_back({"figure-3-13-" + group.name, curve_figure(group, family_ink(f), curves, x, y)});
   }
   exhibit.notes.push_back(
-      fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis "
-                  "every seed has more than twice the failure strain of VW.",
+      fmt::format("One replicate of each seed (notched, upright), with the notched rigid specimen (VW){}. In the "
+                  "thesis every seed has more than twice the failure strain of VW.",
                   curves.contains("rigid") ? "" : ", which this run did not measure"));
-  if (without > 0) exhibit.notes.push_back(fmt::format("{} seeds have no measured curve.", without));
+  if (without > 0)
+    exhibit.notes.push_back(fmt::format("{} {} no measured curve.", without, without == 1 ? "seed has" : "seeds have"));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }

@@ -1,11 +1,10 @@
-// Exhibits of the family stage: Figures 3-14 and 3-15, Tables 3.6, 3.7, A.5, A.6.
+#include "report/paper_family_stage.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "game/family_errors.hpp"
-#include "report/paper.hpp"
 #include "report/report_data.hpp"
 #include "report/report_figures.hpp"
 #include "report/report_text.hpp"
@@ -19,25 +18,26 @@ const std::string kNoStage =
     "(launch/README.md).";
 
 /// A family of the run or of the thesis with what Tables A.5 and A.6 say of it.
-struct Stated {
+struct StatedFamily {
   std::string name;
   bool is_thesis = false, is_validated = true;
   std::vector<game::FamilyDesign> designs;
 };
 
-std::vector<Stated> families_of_run(const PaperSource& source) {
-  std::vector<Stated> all;
+std::vector<StatedFamily> families_of_run(const PaperSource& source) {
+  std::vector<StatedFamily> all;
   for (const store::RecordedFamily& family : source.run.families)
     all.push_back({family.stated.name, false, family.stated.is_validated, family.stated.designs});
   return all;
 }
 
-std::vector<Stated> families_of_thesis(const PaperSource& source) {
-  std::vector<Stated> all;
+std::vector<StatedFamily> families_of_thesis(const PaperSource& source) {
+  std::vector<StatedFamily> all;
   for (const game::ThesisFamilySample& sample : source.thesis.families) {
     const std::string name = fmt::format("thesis {}", sample.family);
-    if (all.empty() || std::ranges::find(all, name, &Stated::name) == all.end()) all.push_back({name, true, true, {}});
-    std::ranges::find(all, name, &Stated::name)
+    if (all.empty() || std::ranges::find(all, name, &StatedFamily::name) == all.end())
+      all.push_back({name, true, true, {}});
+    std::ranges::find(all, name, &StatedFamily::name)
         ->designs.push_back({.pattern = {},
                              .is_seed = sample.is_seed,
                              .measured = sample.measured,
@@ -47,9 +47,9 @@ std::vector<Stated> families_of_thesis(const PaperSource& source) {
   return all;
 }
 
-std::vector<Stated> all_families(const PaperSource& source) {
-  std::vector<Stated> all = families_of_run(source);
-  for (Stated& family : families_of_thesis(source)) all.push_back(std::move(family));
+std::vector<StatedFamily> all_families(const PaperSource& source) {
+  std::vector<StatedFamily> all = families_of_run(source);
+  for (StatedFamily& family : families_of_thesis(source)) all.push_back(std::move(family));
   return all;
 }
 
@@ -57,22 +57,21 @@ std::vector<Stated> all_families(const PaperSource& source) {
 int designs_of(const sysid::PredictionErrors& errors) { return std::max(errors.modulus_count, errors.toughness_count); }
 
 /// Table 3.6 (seeds) or 3.7 (chosen designs).
-PaperTable errors_table(const PaperSource& source, const std::string& name, bool seeds) {
-  PaperTable table{.name = name,
-                   .columns = {{"family", "family"},
-                               {"count", "N"},
-                               {"modulus_global_mean", "E global"},
-                               {"modulus_global_max", "max"},
-                               {"modulus_family_mean", "E family"},
-                               {"modulus_family_max", "max"},
-                               {"toughness_global_mean", "T global"},
-                               {"toughness_global_max", "max"},
-                               {"toughness_family_mean", "T family"},
-                               {"toughness_family_max", "max"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
-  for (const Stated& family : all_families(source)) {
+ExhibitTable errors_table(const PaperSource& source, const std::string& name, bool seeds) {
+  constexpr const char* kGlobal = "Relative error of the model that is calibrated on all families";
+  constexpr const char* kOwn = "Relative error of the model that is calibrated on this family";
+  ExhibitTable table{.name = name,
+                     .columns = {{"family", "family"},
+                                 {"count", "designs", "How many designs the errors are of"},
+                                 {"modulus_global_mean", "mean", kGlobal, "E, global model"},
+                                 {"modulus_global_max", "max", kGlobal, "E, global model"},
+                                 {"modulus_family_mean", "mean", kOwn, "E, family's model"},
+                                 {"modulus_family_max", "max", kOwn, "E, family's model"},
+                                 {"toughness_global_mean", "mean", kGlobal, "T, global model"},
+                                 {"toughness_global_max", "max", kGlobal, "T, global model"},
+                                 {"toughness_family_mean", "mean", kOwn, "T, family's model"},
+                                 {"toughness_family_max", "max", kOwn, "T, family's model"}}};
+  for (const StatedFamily& family : all_families(source)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     const sysid::PredictionErrors& global = seeds ? errors.seeds_global : errors.chosen_global;
     const sysid::PredictionErrors& own = seeds ? errors.seeds_family : errors.chosen_family;
@@ -85,7 +84,7 @@ PaperTable errors_table(const PaperSource& source, const std::string& name, bool
          error_cell(global.toughness_count, global.toughness_mean),
          error_cell(global.toughness_count, global.toughness_max), error_cell(own.toughness_count, own.toughness_mean),
          error_cell(own.toughness_count, own.toughness_max)},
-        family.is_thesis);
+        family.is_thesis ? TableRowKind::thesis : TableRowKind::own);
   }
   return table;
 }
@@ -93,23 +92,20 @@ PaperTable errors_table(const PaperSource& source, const std::string& name, bool
 /// Table A.5 (E) or A.6 (T).
 Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading,
                  std::optional<double> game::DesignValues::*property) {
-  Exhibit exhibit{.id = id, .heading = heading, .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = id, .heading = heading};
   const bool is_modulus = property == &game::DesignValues::modulus_pa;
   const auto value = [&](const std::optional<double>& pa) { return is_modulus ? gpa_cell(pa) : mpa_cell(pa); };
-  PaperTable table{.name = id,
-                   .columns = {{"family", "family"},
-                               {"role", "role"},
-                               {"design", "design"},
-                               {"rigid_fraction", "VW%"},
-                               {"measured_pa", "exp."},
-                               {"global_pa", "sim. (global)"},
-                               {"global_error", "err."},
-                               {"family_pa", "sim. (family)"},
-                               {"family_error", "err."}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
-  for (const Stated& family : families_of_run(source)) {
+  ExhibitTable table{.name = id,
+                     .columns = {{"family", "family"},
+                                 {"role", "role"},
+                                 {"design", "design"},
+                                 {"rigid_fraction", "rigid fraction"},
+                                 {"measured_pa", "measured"},
+                                 {"global_pa", "predicted", "", "global model"},
+                                 {"global_error", "error", "Relative to the measured value", "global model"},
+                                 {"family_pa", "predicted", "", "family's model"},
+                                 {"family_error", "error", "Relative to the measured value", "family's model"}}};
+  for (const StatedFamily& family : families_of_run(source)) {
     for (const game::FamilyDesign& d : family.designs) {
       table.add({text_cell(family.name), text_cell(d.is_seed ? "seed" : "validation"), design_cell(d.pattern.key()),
                  share_cell(d.pattern.rigid_fraction()), value(d.measured.*property), value(d.global_model.*property),
@@ -122,8 +118,8 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
     return exhibit;
   }
   exhibit.notes.push_back(
-      fmt::format("{}. Both predictions of the validation designs stood before these were measured; – : not measured "
-                  "(refused, or no valid specimen), or not simulated.",
+      fmt::format("{}. Both predictions of the validation designs are out-of-sample. –: not measured (rejected, or no "
+                  "valid specimen), or not simulated.",
                   is_modulus ? "E in GPa" : "T in MPa"));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
@@ -139,7 +135,7 @@ std::optional<std::string> seed_error_figure(const PaperSource& source, bool tou
                                 : game::error_over(e.modulus_count, e.modulus_mean);
     if (mean) points.push_back({place, 100.0 * *mean});
   };
-  for (const Stated& family : families_of_run(source)) {
+  for (const StatedFamily& family : families_of_run(source)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     place += 1.0;
     add(global, errors.seeds_global);
@@ -157,19 +153,19 @@ std::optional<std::string> seed_error_figure(const PaperSource& source, bool tou
              .height = 260,
              .whole_numbers_x = true});
   plot.dots(global, Ink::earlier, "global model");
-  plot.dots(own, Ink::simulated, "family's own");
+  plot.dots(own, Ink::simulated, "family's model");
   return plot.svg();
 }
 
 /// Whether the families' own models over-fit, by family and property, as the page says it.
-struct Verdicts {
+struct OverFitting {
   std::vector<std::string> over_fitted, open;  ///< "family-1 (T)", "family-2 (E not measured)"
   int sound = 0;
   bool waiting = false;  ///< a family whose designs are being measured
 };
 
 /// Why two models cannot be compared in a property.
-std::string_view what_is_missing(const Stated& family, std::optional<double> game::DesignValues::*property) {
+std::string_view what_is_missing(const StatedFamily& family, std::optional<double> game::DesignValues::*property) {
   const auto is_measured = [&](bool seeds) {
     return std::ranges::any_of(family.designs, [&](const game::FamilyDesign& design) {
       return design.is_seed == seeds && (design.measured.*property).has_value();
@@ -178,25 +174,25 @@ std::string_view what_is_missing(const Stated& family, std::optional<double> gam
   return is_measured(true) && is_measured(false) ? "not simulated" : "not measured";
 }
 
-Verdicts verdicts_of(const std::vector<Stated>& families) {
-  Verdicts verdicts;
-  for (const Stated& family : families) {
+OverFitting over_fitting_of(const std::vector<StatedFamily>& families) {
+  OverFitting found;
+  for (const StatedFamily& family : families) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     const auto judge = [&](char letter, bool over_fits, bool is_judged,
                            std::optional<double> game::DesignValues::*property) {
       if (over_fits)
-        verdicts.over_fitted.push_back(fmt::format("{} ({})", escaped(family.name), letter));
+        found.over_fitted.push_back(fmt::format("{} ({})", escaped(family.name), letter));
       else if (is_judged)
-        ++verdicts.sound;
+        ++found.sound;
       else if (family.is_validated)
-        verdicts.open.push_back(
+        found.open.push_back(
             fmt::format("{} ({} {})", escaped(family.name), letter, what_is_missing(family, property)));
     };
     judge('T', errors.over_fits_toughness(), errors.judges_toughness(), &game::DesignValues::toughness_pa);
     judge('E', errors.over_fits_modulus(), errors.judges_modulus(), &game::DesignValues::modulus_pa);
-    verdicts.waiting = verdicts.waiting || !family.is_validated;
+    found.waiting = found.waiting || !family.is_validated;
   }
-  return verdicts;
+  return found;
 }
 
 std::optional<PlotPoint> point_of(const game::DesignValues& values) {
@@ -215,12 +211,11 @@ std::vector<PlotPoint> variants_and_measured(const PaperSource& source) {
   return all;
 }
 
-PaperTable variant_table(const PaperSource& source) {
-  PaperTable table{.name = "figure-3-15",
-                   .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+ExhibitTable variant_table(const PaperSource& source) {
+  ExhibitTable table{
+      .name = "figure-3-15",
+      .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
+      .on_page = false};
   for (const store::RecordedFamily& family : source.run.families) {
     for (const explore::Evaluated& sample : family.gamut)
       table.add({text_cell(family.stated.name), text_cell("variant"), text_cell(sample.pattern.key()),
@@ -254,17 +249,14 @@ std::string gamut_figure(const store::RecordedFamily& family, Ink ink, const Ran
 }  // namespace
 
 Exhibit seed_error_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-14",
-                  .heading = "Figure 3-14, Table 3.6: Global and family models on the seeds",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-14", .heading = "Figure 3-14, Table 3.6: Global and family models on the seeds"};
   if (source.run.families.empty())
     exhibit.notes.push_back(kNoStage + " The thesis' figures:");
   else
     exhibit.notes.push_back(
-        "Seeds are what a family's model is calibrated on with weight 1 (the other near-Pareto designs with 0.1): a "
-        "small error here is no merit yet, Table 3.7 is the test.");
+        "A family's model is calibrated on its seeds with weight 1 (on the other near-Pareto designs with 0.1). A "
+        "small "
+        "error here proves nothing yet: Table 3.7 is the test.");
   for (const bool toughness : {false, true}) {
     if (auto svg = seed_error_figure(source, toughness))
       exhibit.figures.push_back({toughness ? "figure-3-14-toughness" : "figure-3-14-modulus", std::move(*svg)});
@@ -274,8 +266,7 @@ Exhibit seed_error_exhibit(const PaperSource& source) {
 }
 
 Exhibit family_gamut_exhibit(const PaperSource& source) {
-  Exhibit exhibit{
-      .id = "figure-3-15", .heading = "Figure 3-15: Gamuts of the families", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-15", .heading = "Figure 3-15: Gamuts of the families"};
   if (source.run.families.empty()) {
     exhibit.notes.push_back(kNoStage);
     return exhibit;
@@ -297,22 +288,18 @@ Exhibit family_gamut_exhibit(const PaperSource& source) {
 }
 
 Exhibit validation_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-3-7",
-                  .heading = "Table 3.7: Global and family models on the validation designs",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "table-3-7", .heading = "Table 3.7: Global and family models on the validation designs"};
   if (source.run.families.empty()) exhibit.notes.push_back(kNoStage + " The thesis' figures:");
-  const auto [over_fitted, open, sound, waiting] = verdicts_of(families_of_run(source));
+  const auto [over_fitted, open, sound, waiting] = over_fitting_of(families_of_run(source));
   if (waiting) exhibit.notes.push_back("Some families are not validated yet: their designs are being measured.");
   if (!open.empty())
     exhibit.notes.push_back(
-        fmt::format("<strong>No verdict: {}</strong> - no seed or no validation design has a measurement (these were "
-                    "refused, or had no valid specimen), or a model could not simulate them.",
+        fmt::format("<strong>No verdict: {}</strong>: no seed or no validation design has a measurement (rejected, or "
+                    "no valid specimen), or a model could not simulate them.",
                     fmt::join(open, ", ")));
   if (!over_fitted.empty())
     exhibit.notes.push_back(
-        fmt::format("<strong>Over-fitted: {}</strong> - nearer to the seeds than the global model and farther from the "
+        fmt::format("<strong>Over-fitted: {}</strong>: nearer to the seeds than the global model and farther from the "
                     "validation designs, as in three of the thesis' four families. Trust the global model there.",
                     fmt::join(over_fitted, ", ")));
   else if (sound > 0 && !waiting)

@@ -1,4 +1,4 @@
-// Exhibits of the game: Figures 3-2 to 3-4, 3-7, Tables 3.3 to 3.5.
+#include "report/paper_game.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,10 +7,8 @@
 
 #include "game/standings.hpp"
 #include "optimize/pareto.hpp"
-#include "report/paper.hpp"
 #include "report/report_data.hpp"
 #include "report/report_figures.hpp"
-#include "report/report_sections.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 #include "report/thesis_figures.hpp"
@@ -27,12 +25,10 @@ std::vector<MeasuredPattern> measured_in_game(const PaperSource& source) {
   return measured_patterns(source.run, newest_round(source.run).value_or(0));
 }
 
-PaperTable gamut_data(const PaperSource& source) {
-  PaperTable table{.name = "figure-3-2",
-                   .columns = {{"round", ""}, {"what", ""}, {"design", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+ExhibitTable gamut_data(const PaperSource& source) {
+  ExhibitTable table{.name = "figure-3-2",
+                     .columns = {{"round", ""}, {"what", ""}, {"design", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
+                     .on_page = false};
   const auto add = [&](int round, std::string_view what, std::string_view design, const optimize::Performance& p) {
     table.add({text_cell(std::to_string(round)), text_cell(what), text_cell(design), gpa_cell(p.modulus_pa),
                mpa_cell(p.toughness_pa)});
@@ -57,52 +53,53 @@ std::optional<double> thesis_hypervolume(const PaperSource& source, int round) {
   return optimize::hypervolume_staircase_gpa_mpa(points);
 }
 
-PaperTable hypervolume_data(const PaperSource& source) {
-  PaperTable table{.name = "figure-3-3",
-                   .columns = {{"round", "round"},
-                               {"measured_gpa_mpa", "measured"},
-                               {"hypervolume_error_gpa_mpa", "± error"},
-                               {"gamut_gpa_mpa", "gamut"},
-                               {"gap_gpa_mpa", "gap"},
-                               {"signed_gap_gpa_mpa", "signed gap"},
-                               {"decided_by", "equilibrium"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
+Cell equilibrium_cell(const wire::RoundSummary& s) {
+  return {(s.equilibrium ? "reached: " : "not reached: ") + escaped(s.decided_by),
+          s.equilibrium ? "yes: " + s.decided_by : s.decided_by};
+}
+
+ExhibitTable hypervolume_data(const PaperSource& source) {
+  constexpr const char* kHypervolume = "hypervolume (GPa MPa)";
+  constexpr const char* kGap = "gap between simulation and laboratory (GPa MPa)";
+  ExhibitTable table{.name = "figure-3-3",
+                     .columns = {{"round", "round"},
+                                 {"measured_gpa_mpa", "measured front", "Area under its staircase", kHypervolume},
+                                 {"hypervolume_error_gpa_mpa", "± error",
+                                  "Bootstrap standard error over replicates of the measured hypervolume", kHypervolume},
+                                 {"gamut_gpa_mpa", "simulated front", "Area under its staircase", kHypervolume},
+                                 {"gap_gpa_mpa", "area", "Area between the two fronts", kGap},
+                                 {"signed_gap_gpa_mpa", "signed", "Simulated less measured hypervolume", kGap},
+                                 {"decided_by", "equilibrium", "Whether it is reached, and which comparison decided"}}};
   for (const auto& [number, round] : source.run.rounds) {
     if (!round.summary) continue;
     const wire::RoundSummary& s = *round.summary;
     table.add({text_cell(std::to_string(number)), number_cell(s.measured_hypervolume_staircase),
                number_cell(s.hypervolume_error), number_cell(s.gamut_hypervolume_staircase), number_cell(s.gap),
-               number_cell(s.signed_gap), text_cell(s.equilibrium ? "yes: " + s.decided_by : s.decided_by)});
+               number_cell(s.signed_gap), equilibrium_cell(s)});
   }
   for (int round = 0; round <= 4; ++round) {
     const auto measured = thesis_hypervolume(source, round);
     if (measured)
       table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), number_cell(std::nullopt),
                  number_cell(std::nullopt), number_cell(std::nullopt), number_cell(std::nullopt), text_cell("")},
-                true);
+                TableRowKind::thesis);
   }
   return table;
 }
 
-struct Best {
-  MeasuredPattern design;
-  Improvement improvement;
-};
-
 /// Designs near the measured front (rank 1 and 2) by falling improvement in toughness.
-std::vector<Best> best_designs(const std::vector<MeasuredPattern>& measured,
-                               const std::vector<optimize::Performance>& line) {
+std::vector<ComparedDesign> best_designs(const std::vector<MeasuredPattern>& measured,
+                                         const std::vector<optimize::Performance>& line) {
   std::vector<optimize::Performance> points;
   for (const MeasuredPattern& m : measured) points.push_back(m.mean);
   const std::vector<int> ranks = optimize::non_dominated_ranks(points);
-  std::vector<Best> best;
+  std::vector<ComparedDesign> best;
   for (std::size_t i = 0; i < measured.size(); ++i)
     if (ranks[i] <= 2) best.push_back({measured[i], improvement_over(line, measured[i].mean)});
-  std::ranges::stable_sort(best, std::greater{}, [](const Best& b) { return b.improvement.toughness.value_or(0.0); });
+  std::ranges::stable_sort(best, std::greater{},
+                           [](const ComparedDesign& b) { return b.gain.toughness.value_or(0.0); });
   if (best.size() > kBestDesigns) best.resize(kBestDesigns);
-  std::ranges::stable_sort(best, std::greater{}, [](const Best& b) { return b.design.mean.toughness_pa; });
+  std::ranges::stable_sort(best, std::greater{}, [](const ComparedDesign& b) { return b.measured.mean.toughness_pa; });
   return best;
 }
 
@@ -127,23 +124,22 @@ Cell times_cell(const std::optional<double>& factor) {
   return {factor ? fmt::format("{:.2f}×", *factor) : "–", factor ? fmt::format("{:.4g}", *factor) : ""};
 }
 
-PaperTable best_table(const std::vector<Best>& best, const std::optional<double>& base_pa) {
-  PaperTable table{.name = "table-3-3",
-                   .columns = {{"pattern", "pattern"},
-                               {"rigid_fraction", "VW%"},
-                               {"modulus_pa", "E (GPa)"},
-                               {"toughness_pa", "T (MPa)"},
-                               {"gain_modulus", "E, homogeneous"},
-                               {"gain_toughness", "T, homogeneous"},
-                               {"gain_toughness_base", "T, base"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
-  for (const Best& b : best) {
-    const optimize::Performance& p = b.design.mean;
-    table.add({design_cell(b.design.pattern.key()), share_cell(b.design.pattern.rigid_fraction()),
-               gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa), times_cell(b.improvement.modulus),
-               times_cell(b.improvement.toughness),
+ExhibitTable best_table(const std::vector<ComparedDesign>& best, const std::optional<double>& base_pa) {
+  constexpr const char* kTimes = "times a homogeneous mixture's";
+  ExhibitTable table{.name = "table-3-3",
+                     .columns = {{"pattern", "pattern"},
+                                 {"rigid_fraction", "rigid fraction"},
+                                 {"modulus_pa", "E (GPa)"},
+                                 {"toughness_pa", "T (MPa)"},
+                                 {"gain_modulus", "E", "Over that of the mixture with the same T", kTimes},
+                                 {"gain_toughness", "T", "Over that of the mixture with the same E", kTimes},
+                                 {"gain_toughness_base", "T, times the tougher ink's",
+                                  "Over the toughness of the tougher of the two inks alone"}}};
+  for (const ComparedDesign& b : best) {
+    const optimize::Performance& p = b.measured.mean;
+    table.add({design_cell(b.measured.pattern.key()), share_cell(b.measured.pattern.rigid_fraction()),
+               gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa), times_cell(b.gain.modulus),
+               times_cell(b.gain.toughness),
                times_cell(base_pa ? std::optional(p.toughness_pa / *base_pa) : std::nullopt)});
   }
   int number = 0;
@@ -151,18 +147,18 @@ PaperTable best_table(const std::vector<Best>& best, const std::optional<double>
     table.add({text_cell(fmt::format("thesis {}", ++number)), share_cell(0.01 * t.rigid_percent),
                gpa_cell(1e9 * t.modulus_gpa), mpa_cell(1e6 * t.toughness_mpa), times_cell(t.gain_modulus),
                times_cell(t.gain_toughness), times_cell(t.gain_base)},
-              true);
+              TableRowKind::thesis);
   return table;
 }
 
-std::string best_figure(const std::vector<MeasuredPattern>& measured, const std::vector<Best>& best,
+std::string best_figure(const std::vector<MeasuredPattern>& measured, const std::vector<ComparedDesign>& best,
                         const std::vector<optimize::Performance>& line) {
   std::vector<PlotPoint> all, front;
   std::vector<std::string> hints;
   for (const MeasuredPattern& m : measured) all.push_back(to_point(m.mean));
-  for (const Best& b : best) {
-    front.push_back(to_point(b.design.mean));
-    hints.push_back(b.design.pattern.key());
+  for (const ComparedDesign& b : best) {
+    front.push_back(to_point(b.measured.mean));
+    hints.push_back(b.measured.pattern.key());
   }
   std::vector<PlotPoint> everything = to_points(line);
   everything.insert(everything.end(), all.begin(), all.end());
@@ -173,7 +169,7 @@ std::string best_figure(const std::vector<MeasuredPattern>& measured, const std:
              .y = range_of(everything, &PlotPoint::y),
              .width = 560,
              .height = 400});
-  plot.line(to_points(line), Ink::homogeneous, Stroke::dashed, "homogeneous, measured");
+  plot.line(to_points(line), Ink::homogeneous, Stroke::dashed, "homogeneous mixtures, measured");
   plot.dots(to_points(line), Ink::homogeneous, "");
   plot.dots(all, Ink::earlier, "measured patterns");
   plot.dots(front, Ink::measured, "best", hints);
@@ -225,36 +221,37 @@ sysid::PredictionErrors thesis_errors(const PaperSource& source, int round, std:
 }
 
 /// "E 12.2, 9.1, 6.9 %, T 97, 84, 76 %"
-std::string thesis_held_out_errors() {
+std::string thesis_out_of_sample_errors() {
   std::string modulus, toughness;
   for (const ThesisRound& t : kThesisRounds) {
-    if (t.held_out_modulus == 0.0) continue;
+    if (t.out_of_sample_modulus == 0.0) continue;
     const char* comma = modulus.empty() ? "" : ", ";
-    modulus += fmt::format("{}{:.1f}", comma, t.held_out_modulus);
-    toughness += fmt::format("{}{:.0f}", comma, t.held_out_toughness);
+    modulus += fmt::format("{}{:.1f}", comma, t.out_of_sample_modulus);
+    toughness += fmt::format("{}{:.0f}", comma, t.out_of_sample_toughness);
   }
   return fmt::format("E {} %, T {} %", modulus, toughness);
 }
 
-PaperTable error_table(const PaperSource& source) {
-  PaperTable table{.name = "table-3-5",
-                   .columns = {{"round", "round"},
-                               {"count", "N"},
-                               {"modulus_before_mean", "E before"},
-                               {"modulus_before_max", "max"},
-                               {"modulus_after_mean", "E after"},
-                               {"modulus_after_max", "max"},
-                               {"toughness_before_mean", "T before"},
-                               {"toughness_before_max", "max"},
-                               {"toughness_after_mean", "T after"},
-                               {"toughness_after_max", "max"},
-                               {"modulus_held_out_mean", "E held out"},
-                               {"toughness_held_out_mean", "T held out"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
+ExhibitTable error_table(const PaperSource& source) {
+  constexpr const char* kBefore = "Relative error before the calibration of the round, on its designs";
+  constexpr const char* kAfter = "Relative error of the model calibrated on these designs";
+  constexpr const char* kNew = "Mean relative error of the predictions made before the designs were measured";
+  ExhibitTable table{.name = "table-3-5",
+                     .columns = {{"round", "round"},
+                                 {"count", "designs", "How many the model of the round is calibrated on"},
+                                 {"modulus_before_mean", "mean", kBefore, "E before"},
+                                 {"modulus_before_max", "max", kBefore, "E before"},
+                                 {"modulus_after_mean", "mean", kAfter, "E after"},
+                                 {"modulus_after_max", "max", kAfter, "E after"},
+                                 {"toughness_before_mean", "mean", kBefore, "T before"},
+                                 {"toughness_before_max", "max", kBefore, "T before"},
+                                 {"toughness_after_mean", "mean", kAfter, "T after"},
+                                 {"toughness_after_max", "max", kAfter, "T after"},
+                                 {"modulus_held_out_mean", "E", kNew, "out-of-sample"},
+                                 {"toughness_held_out_mean", "T", kNew, "out-of-sample"}}};
   const auto add = [&](const std::string& round, int count, const sysid::PredictionErrors& before,
-                       const sysid::PredictionErrors& after, const sysid::PredictionErrors& held_out, bool thesis) {
+                       const sysid::PredictionErrors& after, const sysid::PredictionErrors& out_of_sample,
+                       TableRowKind kind) {
     table.add(
         {text_cell(round), text_cell(std::to_string(count)), error_cell(before.modulus_count, before.modulus_mean),
          error_cell(before.modulus_count, before.modulus_max), error_cell(after.modulus_count, after.modulus_mean),
@@ -262,18 +259,18 @@ PaperTable error_table(const PaperSource& source) {
          error_cell(before.toughness_count, before.toughness_max),
          error_cell(after.toughness_count, after.toughness_mean),
          error_cell(after.toughness_count, after.toughness_max),
-         error_cell(held_out.modulus_count, held_out.modulus_mean),
-         error_cell(held_out.toughness_count, held_out.toughness_mean)},
-        thesis);
+         error_cell(out_of_sample.modulus_count, out_of_sample.modulus_mean),
+         error_cell(out_of_sample.toughness_count, out_of_sample.toughness_mean)},
+        kind);
   };
   for (const auto& [number, round] : source.run.rounds)
     if (round.summary)
       add(std::to_string(number), round.summary->calibration_count, round.summary->before, round.summary->after,
-          round.summary->held_out, false);
+          round.summary->held_out, TableRowKind::own);
   for (int round = 1; round <= 4 && !source.thesis.samples.empty(); ++round) {
     const auto before = thesis_errors(source, round, 0),
                after = thesis_errors(source, round, static_cast<std::size_t>(round));
-    add(fmt::format("thesis {}", round), before.modulus_count, before, after, {}, true);
+    add(fmt::format("thesis {}", round), before.modulus_count, before, after, {}, TableRowKind::thesis);
   }
   return table;
 }
@@ -281,14 +278,10 @@ PaperTable error_table(const PaperSource& source) {
 }  // namespace
 
 Exhibit gamut_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-2",
-                  .heading = "Figure 3-2: Evolution of simulation and experiment",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-2", .heading = "Figure 3-2: Evolution of simulation and experiment"};
   exhibit.notes.push_back(
-      "Gamut of each round's model (blue), what was measured until then (orange), the proposals (rings) and the "
-      "measured homogeneous mixtures (grey), on the same axes; a front's staircase bounds what it dominates.");
+      "Simulated by the model of each round (blue), measured until then (orange), proposals (rings) and measured "
+      "homogeneous mixtures (grey), on the same axes. A front's staircase bounds what it dominates.");
   std::size_t number = 0;
   for (std::string& svg : gamut_figures(source.run))
     exhibit.figures.push_back({fmt::format("figure-3-2-{}", number++), std::move(svg)});
@@ -299,10 +292,7 @@ Exhibit gamut_exhibit(const PaperSource& source) {
 
 Exhibit hypervolume_exhibit(const PaperSource& source) {
   Exhibit exhibit{.id = "figure-3-3",
-                  .heading = "Figure 3-3: Pareto hypervolumes and the sim-to-real gap",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+                  .heading = "Figure 3-3: Hypervolumes, and the gap between simulation and laboratory"};
   constexpr const char* kNames[] = {"hypervolume", "gap", "signed-gap"};
   std::size_t number = 0;
   for (std::string& svg : round_figures(source.run))
@@ -312,90 +302,80 @@ Exhibit hypervolume_exhibit(const PaperSource& source) {
     return exhibit;
   }
   exhibit.notes.push_back(
-      "Hypervolumes by staircase from E = 0, T = 0; the gap is the area between the two fronts, the error a bootstrap "
-      "over replicates. The thesis' measured values follow from its Tables A.3 and A.4 (its round 0 is the ten random "
-      "patterns); its gap fell by an order of magnitude in four rounds, in a figure without numbers.");
+      "Hypervolumes are areas under the staircases, down to E = 0, T = 0. The gap is the area between the two fronts, "
+      "the error a bootstrap over replicates. The thesis' measured values follow from its Tables A.3 and A.4 (its "
+      "round 0 is the ten random patterns); its gap fell by an order of magnitude in four rounds, in a figure without "
+      "numbers.");
   exhibit.tables.push_back(hypervolume_data(source));
   return exhibit;
 }
 
 Exhibit best_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-4",
-                  .heading = "Figure 3-4, Table 3.3: Best designs against homogeneous composites",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-4", .heading = "Figure 3-4, Table 3.3: Best designs against homogeneous composites"};
   const auto measured = measured_in_game(source);
   const auto line = newest_line(source.run);
   if (measured.empty()) {
     exhibit.notes.push_back("No pattern of this run has been measured in both tests yet.");
     return exhibit;
   }
-  const std::vector<Best> best = best_designs(measured, line);
-  const auto worth =
-      std::ranges::count_if(best, [](const Best& b) { return b.improvement.toughness.value_or(0.0) >= kWorthShowing; });
+  const std::vector<ComparedDesign> best = best_designs(measured, line);
+  const auto worth = std::ranges::count_if(
+      best, [](const ComparedDesign& b) { return b.gain.toughness.value_or(0.0) >= kWorthShowing; });
   if (line.size() < 2) {
     exhibit.notes.push_back(
-        "This run has measured no line of homogeneous mixtures: there is nothing to compare its designs with.");
+        "This run has measured no homogeneous mixtures: there is nothing to compare its designs with.");
   } else {
     exhibit.notes.push_back(
         fmt::format("Designs near the measured front (first and second rank) with the largest gain in toughness over "
-                    "the homogeneous line at the same E; the thesis shows those above {}×, here {} of {} reach that. "
-                    "Gains in E are read at the same T; a design beyond the line has none (–).",
+                    "the homogeneous mixture of the same E. The thesis shows those above {}×; here {} of {} reach "
+                    "that. Gains in E are read at the same T; a design beyond the mixtures' range has none (–).",
                     kWorthShowing, worth, best.size()));
   }
   const auto base = tougher_base_pa(source.run);
   if (base)
     exhibit.notes.push_back(
-        fmt::format("Base: the tougher base material as measured here, {} MPa (thesis: VW, 0.070 MPa).", mpa(*base)));
+        fmt::format("The tougher ink alone was measured at {} MPa (thesis: VW, 0.070 MPa).", mpa(*base)));
   else
     exhibit.notes.push_back(
-        "The notched base materials were not measured in this run: no gain over them can be given.");
+        "The inks alone were not measured in this run as notched specimens: no gain over them can be given.");
   exhibit.figures.push_back({"figure-3-4", best_figure(measured, best, line)});
   exhibit.tables.push_back(best_table(best, base));
   return exhibit;
 }
 
 Exhibit base_material_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-3-4",
-                  .heading = "Table 3.4: Base materials after the first system identification",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
-  const auto model = source.answers.find(0);
-  PaperTable table{.name = "table-3-4",
-                   .columns = {{"material", "material"},
-                               {"measured_modulus_pa", "E exp. (GPa)"},
-                               {"simulated_modulus_pa", "E sim."},
-                               {"modulus_error", "err."},
-                               {"measured_toughness_pa", "T exp. (MPa)"},
-                               {"simulated_toughness_pa", "T sim."},
-                               {"toughness_error", "err."}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
+  Exhibit exhibit{.id = "table-3-4", .heading = "Table 3.4: Base materials after the first system identification"};
+  const auto model = source.predictions.find(0);
+  ExhibitTable table{.name = "table-3-4",
+                     .columns = {{"material", "material", "TB: soft ink, VW: rigid ink, IF: interface"},
+                                 {"measured_modulus_pa", "measured", "", "E (GPa)"},
+                                 {"simulated_modulus_pa", "simulated", "", "E (GPa)"},
+                                 {"modulus_error", "error", "", "E (GPa)"},
+                                 {"measured_toughness_pa", "measured", "", "T (MPa)"},
+                                 {"simulated_toughness_pa", "simulated", "", "T (MPa)"},
+                                 {"toughness_error", "error", "", "T (MPa)"}}};
   const auto add = [&](const std::string& name, const game::DesignValues& measured, const game::DesignValues& simulated,
-                       bool thesis) {
+                       TableRowKind kind) {
     table.add({text_cell(name), gpa_cell(measured.modulus_pa), gpa_cell(simulated.modulus_pa),
                share_cell(error_of(simulated.modulus_pa, measured.modulus_pa)), mpa_cell(measured.toughness_pa),
                mpa_cell(simulated.toughness_pa), share_cell(error_of(simulated.toughness_pa, measured.toughness_pa))},
-              thesis);
+              kind);
   };
   bool found = false;
   for (const auto& [design, name] : {std::pair{"soft", "TB"}, std::pair{"rigid", "VW"}, std::pair{"interface", "IF"}}) {
     const auto material = std::ranges::find(source.base_materials, design,
                                             [](const measurement::Replicates& each) { return each.design.name(); });
-    if (model == source.answers.end() || !model->second.contains(design) || material == source.base_materials.end())
+    if (model == source.predictions.end() || !model->second.contains(design) || material == source.base_materials.end())
       continue;
     found = true;
     add(name, {.modulus_pa = material->modulus_pa, .toughness_pa = material->toughness_pa}, model->second.at(design),
-        false);
+        TableRowKind::own);
   }
   for (const game::ThesisMaterial& material : source.thesis.materials)
-    add("thesis " + material.name, material.measured, material.simulated, true);
+    add("thesis " + material.name, material.measured, material.simulated, TableRowKind::thesis);
   exhibit.notes.push_back(
-      found ? "The model of round 0 on the measurements that it was fitted to (`base_materials_file`)."
-            : "The base materials, or what the model of round 0 says of them, are not in this folder "
+      found ? "The model of round 0 on the measurements that it was fitted to (<code>base_materials_file</code>)."
+            : "The base materials, or the predictions of round 0's model for them, are not in this folder "
               "(they stand in inputs/ and in the validation agent's journal).");
   exhibit.tables.push_back(table);
   return exhibit;
@@ -403,13 +383,10 @@ Exhibit base_material_exhibit(const PaperSource& source) {
 
 Exhibit error_exhibit(const PaperSource& source) {
   Exhibit exhibit{.id = "figure-3-7",
-                  .heading = "Figure 3-7, Table 3.5: Prediction errors before and after system identification",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
-  const PaperTable table = error_table(source);
+                  .heading = "Figure 3-7, Table 3.5: Prediction errors before and after system identification"};
+  const ExhibitTable table = error_table(source);
   for (const bool toughness : {false, true}) {
-    std::vector<PlotPoint> before, after, held_out, thesis;
+    std::vector<PlotPoint> before, after, out_of_sample, thesis;
     for (const auto& [number, round] : source.run.rounds) {
       if (!round.summary || number == 0) continue;
       const auto add = [&, n = static_cast<double>(number)](std::vector<PlotPoint>& line,
@@ -419,9 +396,9 @@ Exhibit error_exhibit(const PaperSource& source) {
       };
       add(before, round.summary->before);
       add(after, round.summary->after);
-      add(held_out, round.summary->held_out);
+      add(out_of_sample, round.summary->held_out);
     }
-    if (before.empty() && after.empty() && held_out.empty()) continue;
+    if (before.empty() && after.empty() && out_of_sample.empty()) continue;
     for (int round = 1; round <= 4 && !source.thesis.samples.empty(); ++round) {
       const auto errors = thesis_errors(source, round, static_cast<std::size_t>(round));
       thesis.push_back({static_cast<double>(round), 100.0 * (toughness ? errors.toughness_mean : errors.modulus_mean)});
@@ -430,15 +407,15 @@ Exhibit error_exhibit(const PaperSource& source) {
                                error_figure(toughness ? "Toughness" : "Young's modulus", last_round(source),
                                             {{"before", Ink::earlier, Stroke::solid, before},
                                              {"after", Ink::simulated, Stroke::solid, after},
-                                             {"held out", Ink::measured, Stroke::solid, held_out},
+                                             {"out-of-sample", Ink::measured, Stroke::solid, out_of_sample},
                                              {"thesis, after", Ink::thesis, Stroke::dashed, thesis}})});
   }
   exhibit.notes.push_back(fmt::format(
-      "Before: the model that the round began with, on the N designs of the round; after: the model calibrated on "
-      "them. The thesis' “before” is its first model (fitted to the base materials) in every round. Held out: what the "
-      "round's proposals were predicted to be before they were measured, the honest figure; of the thesis it follows "
-      "from Tables A.3 and A.4: {} in rounds 2 to 4.",
-      thesis_held_out_errors()));
+      "Before: the model that the round began with, on the designs of the round. After: the model calibrated on them. "
+      "The thesis' “before” is its first model (fitted to the base materials) in every round. Out-of-sample: the "
+      "round's proposals as predicted before they were measured, which says how far the model can be trusted; for the "
+      "thesis it follows from Tables A.3 and A.4: {} in rounds 2 to 4.",
+      thesis_out_of_sample_errors()));
   if (last_round(source) == 0) exhibit.notes.push_back("This run has no measured round yet.");
   exhibit.tables.push_back(table);
   return exhibit;

@@ -1,4 +1,4 @@
-// Exhibits of the subfamilies' maps: Figures 3-16 to 3-18, Table A.7.
+#include "report/paper_maps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,16 @@
 
 #include "families/barycentre.hpp"
 #include "families/interpolation.hpp"
-#include "report/paper.hpp"
-#include "report/report_figures.hpp"
-#include "report/report_text.hpp"
+#include "report/design_picture.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::report {
 namespace {
 
-constexpr int kExamples = 6;  // patterns beside a map
+constexpr int kExamples = 6;  // patterns shown with a map
 
 const std::string kNoMaps =
-    "Nobody has drawn maps of this run's families: <code>nacre families --run RUN</code> does, then call again.";
+    "This run has no maps of its families yet: call <code>nacre families --run RUN</code>, then this command again.";
 
 /// E in the blue channel, T in the red one, as the thesis colours its maps; over the ranges of one map.
 struct Colours {
@@ -114,7 +112,7 @@ std::string example_picture(const SubfamilyMap& map) {
                                                      1e-6 * point->performance->toughness_pa)
                                        : point->source);
   }
-  return tiles("Far from each other on it; E (GPa), T (MPa)", kExamples, 1, content);
+  return tiles("Patterns far apart on the map; E (GPa), T (MPa)", kExamples, 1, content);
 }
 
 Eigen::MatrixX2d points_before(const SubfamilyMap& map, std::vector<pattern::Pattern>& members) {
@@ -131,7 +129,7 @@ Eigen::MatrixX2d points_before(const SubfamilyMap& map, std::vector<pattern::Pat
 
 /// Barycentres of the corners of one triangle of the map, weights in quarters; empty when the map has no triangle that
 /// the edge rule admits.
-std::string interpolation_picture(const SubfamilyMap& map, PaperTable& table) {
+std::string interpolation_picture(const SubfamilyMap& map, ExhibitTable& table) {
   std::vector<pattern::Pattern> members;
   const Eigen::MatrixX2d points = points_before(map, members);
   if (members.size() < 4) return "";
@@ -173,27 +171,21 @@ std::size_t count_of(const SubfamilyMap& map, bool interpolated) {
 }  // namespace
 
 Exhibit map_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-16",
-                  .heading = "Figure 3-16: Isomap embeddings of the subfamilies",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-16", .heading = "Figure 3-16: Isomap embeddings of the subfamilies"};
   if (source.maps.empty()) {
     exhibit.notes.push_back(kNoMaps);
     return exhibit;
   }
-  PaperTable table{.name = "figure-3-16",
-                   .columns = {{"family", ""},
-                               {"seed", ""},
-                               {"pattern", ""},
-                               {"source", ""},
-                               {"x", ""},
-                               {"y", ""},
-                               {"modulus_pa", ""},
-                               {"toughness_pa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+  ExhibitTable table{.name = "figure-3-16",
+                     .columns = {{"family", ""},
+                                 {"seed", ""},
+                                 {"pattern", ""},
+                                 {"source", ""},
+                                 {"x", ""},
+                                 {"y", ""},
+                                 {"modulus_pa", ""},
+                                 {"toughness_pa", ""}},
+                     .on_page = false};
   for (const SubfamilyMap& map : source.maps) {
     exhibit.figures.push_back({fmt::format("figure-3-16-{}-{}", map.family, map.seed),
                                map_picture(map, true, fmt::format("{}, around {}", map.family, map.seed))});
@@ -206,24 +198,18 @@ Exhibit map_exhibit(const PaperSource& source) {
     }
   }
   exhibit.notes.push_back(
-      "Each point a pattern within 16 pixels of the seed; distances follow the earth mover's distance along ten "
-      "neighbours. Bluer: stiffer, redder: tougher, over the range of the map. The thesis' maps hold 2000 to 3000 "
+      "Each point is a pattern within 16 pixels of the seed; distances follow the earth mover's distance along ten "
+      "neighbours. Bluer is stiffer and redder tougher, over the range of the map. The thesis' maps hold 2000 to 3000 "
       "patterns.");
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit interpolation_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-17",
-                  .heading = "Figure 3-17: Interpolation between three patterns",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
-  PaperTable table{.name = "figure-3-17",
-                   .columns = {{"family", ""}, {"seed", ""}, {"weights", ""}, {"pattern", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+  Exhibit exhibit{.id = "figure-3-17", .heading = "Figure 3-17: Interpolation between three patterns"};
+  ExhibitTable table{.name = "figure-3-17",
+                     .columns = {{"family", ""}, {"seed", ""}, {"weights", ""}, {"pattern", ""}},
+                     .on_page = false};
   for (const SubfamilyMap& map : source.maps) {
     std::string picture = interpolation_picture(map, table);
     if (!picture.empty())
@@ -245,11 +231,7 @@ Exhibit interpolation_exhibit(const PaperSource& source) {
 }
 
 Exhibit refinement_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-18",
-                  .heading = "Figure 3-18: Maps before and after interpolation",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-18", .heading = "Figure 3-18: Maps before and after interpolation"};
   for (const SubfamilyMap& map : source.maps) {
     const bool has_before = std::ranges::any_of(map.points, [](const MapPoint& p) { return p.x_sampled.has_value(); });
     if (!has_before || count_of(map, true) == 0) continue;
@@ -263,44 +245,37 @@ Exhibit refinement_exhibit(const PaperSource& source) {
     exhibit.notes.push_back(source.maps.empty() ? kNoMaps : "Interpolation added no pattern to any of the maps.");
   else
     exhibit.notes.push_back(
-        "Left the patterns of dense sampling, right the map of them and of what interpolation added.");
+        "Left the patterns of dense sampling, right the map of them and of those that interpolation added.");
   return exhibit;
 }
 
 Exhibit growth_appendix(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-a-7",
-                  .heading = "Table A.7: Growth of the subfamilies by interpolation",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "table-a-7", .heading = "Table A.7: Growth of the subfamilies by interpolation"};
   if (source.maps.empty()) {
     exhibit.notes.push_back(kNoMaps + " The thesis' eleven subfamilies grew by 4.52 % in all (1.75 to 7.15 %).");
     return exhibit;
   }
-  PaperTable table{.name = "table-a-7",
-                   .columns = {{"family", "family"},
-                               {"seed", "subfamily"},
-                               {"before", "before"},
-                               {"after", "after"},
-                               {"growth", "increase"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
+  ExhibitTable table{.name = "table-a-7",
+                     .columns = {{"family", "family"},
+                                 {"seed", "subfamily", "The variants around one seed"},
+                                 {"before", "patterns before"},
+                                 {"after", "patterns after"},
+                                 {"growth", "increase"}}};
   std::size_t before = 0, after = 0;
-  const auto row = [&](const std::string& family, Cell seed, std::size_t sampled, std::size_t all, bool thesis) {
+  const auto row = [&](const std::string& family, Cell seed, std::size_t sampled, std::size_t all, TableRowKind kind) {
     table.add({text_cell(family), std::move(seed), text_cell(std::to_string(sampled)), text_cell(std::to_string(all)),
                share_cell(static_cast<double>(all - sampled) / static_cast<double>(sampled))},
-              thesis);
+              kind);
   };
   for (const SubfamilyMap& map : source.maps) {
-    row(map.family, design_cell(map.seed), count_of(map, false), map.points.size(), false);
+    row(map.family, design_cell(map.seed), count_of(map, false), map.points.size(), TableRowKind::own);
     before += count_of(map, false);
     after += map.points.size();
   }
-  row("all", text_cell(""), before, after, false);
-  row("thesis, all 11", text_cell(""), 24656, 25771, true);
+  row("all", text_cell(""), before, after, TableRowKind::own);
+  row("thesis, all 11", text_cell(""), 24656, 25771, TableRowKind::thesis);
   exhibit.notes.push_back(
-      "Growth depends on how dense the map is: few patterns leave wide triangles, and more room between them.");
+      "Growth depends on how dense the map is: few patterns leave wide triangles, with more room in them.");
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }

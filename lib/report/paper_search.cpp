@@ -1,4 +1,4 @@
-// Exhibit of the search: Figure 3-9.
+#include "report/paper_search.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include "optimize/pareto.hpp"
-#include "report/paper.hpp"
 #include "report/report_figures.hpp"
-#include "report/report_text.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::report {
@@ -66,11 +64,7 @@ std::string growth_figure(int round, const std::vector<std::vector<PlotPoint>>& 
 }  // namespace
 
 Exhibit search_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-9",
-                  .heading = "Figure 3-9: Hypervolume growth of the gamut",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
+  Exhibit exhibit{.id = "figure-3-9", .heading = "Figure 3-9: Hypervolume growth of the gamut"};
   std::map<int, std::vector<std::vector<PlotPoint>>> by_round;
   for (const SearchPath& path : source.searches)
     if (!path.samples.empty()) by_round[path.round].push_back(growth_of(path));
@@ -79,11 +73,9 @@ Exhibit search_exhibit(const PaperSource& source) {
         "The proposal agent's journal is not in this folder: the order of its simulations is not known.");
     return exhibit;
   }
-  PaperTable table{.name = "figure-3-9",
-                   .columns = {{"round", ""}, {"search", ""}, {"simulations", ""}, {"hypervolume_gpa_mpa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
+  ExhibitTable table{.name = "figure-3-9",
+                     .columns = {{"round", ""}, {"search", ""}, {"simulations", ""}, {"hypervolume_gpa_mpa", ""}},
+                     .on_page = false};
   for (const SearchPath& path : source.searches) {
     for (const PlotPoint& point : growth_of(path))
       table.add({text_cell(std::to_string(path.round)), text_cell(std::to_string(path.branch)), number_cell(point.x),
@@ -96,8 +88,8 @@ Exhibit search_exhibit(const PaperSource& source) {
   }
   exhibit.notes.push_back(
       "First and last round; simulations of one search, without those that an unchanged model took over from the round "
-      "before. A game plays one algorithm: rivals are compared by <code>nacre explore</code> (docs/studies/search.md). "
-      "The thesis' learned search needs 1320 and 1060 simulations for what its single-pixel NSGA-II has after 20,000.");
+      "before. A game plays one algorithm; <code>nacre explore</code> compares several (docs/studies/search.md). The "
+      "thesis' learned search needs 1320 and 1060 simulations where its single-pixel NSGA-II needs 20,000.");
   exhibit.tables.push_back(table);
   return exhibit;
 }

@@ -1,7 +1,7 @@
-// What the exhibits are made of, from the files of a run.
+#include "report/paper_source.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <functional>
 
 #include "base/named_table.hpp"
@@ -11,7 +11,6 @@
 #include "game/reference_tables.hpp"
 #include "game/standings.hpp"
 #include "pattern/pattern_key.hpp"
-#include "report/paper.hpp"
 #include "report/report_data.hpp"
 #include "runtime/journal.hpp"
 #include "sysid/objective.hpp"
@@ -37,41 +36,41 @@ void each_message(const fs::path& run_dir, const std::string& node,
   }
 }
 
-/// The questions that a node asked the farm, in order, and their answers.
-struct FarmTalk {
+/// The requests of a node to the simulator farm, in order, and the responses.
+struct FarmTraffic {
   std::vector<wire::SimulateRequest> requests;
-  std::map<std::string, std::vector<wire::SimulatedDesign>> answers;  ///< whole ones, by request
+  std::map<std::string, std::vector<wire::SimulatedDesign>> responses;  ///< whole ones, by request
 };
 
-FarmTalk farm_talk(const fs::path& run_dir, const std::string& node) {
-  FarmTalk talk;
+FarmTraffic farm_traffic(const fs::path& run_dir, const std::string& node) {
+  FarmTraffic traffic;
   wire::ResponseCollector collector;
   each_message(run_dir, node, [&](const std::string& channel, const std::string& payload, bool is_output) {
     if (channel == "SIMULATE" && is_output) {
-      if (auto request = wire::read<wire::SimulateRequest>(payload)) talk.requests.push_back(std::move(*request));
+      if (auto request = wire::read<wire::SimulateRequest>(payload)) traffic.requests.push_back(std::move(*request));
     } else if (channel == "SIMULATED" && !is_output) {
       auto part = wire::read<wire::SimulateResult>(payload);
       if (!part) return;
       const std::string id = part->request_id;
-      if (auto whole = collector.add(std::move(*part))) talk.answers.emplace(id, std::move(*whole));
+      if (auto whole = collector.add(std::move(*part))) traffic.responses.emplace(id, std::move(*whole));
     }
   });
-  return talk;
+  return traffic;
 }
 
-std::vector<SearchPath> searches_of(const FarmTalk& talk) {
+std::vector<SearchPath> searches_of(const FarmTraffic& traffic) {
   std::map<std::pair<int, int>, SearchPath> paths;
-  for (const wire::SimulateRequest& request : talk.requests) {
+  for (const wire::SimulateRequest& request : traffic.requests) {
     const auto round = number_between("proposal_agent/r", "/s", request.request_id);
     const auto branch =
         round ? number_between(fmt::format("proposal_agent/r{}/s", *round), "/", request.request_id) : std::nullopt;
     if (!branch) continue;
-    const auto answer = talk.answers.find(request.request_id);
-    if (answer == talk.answers.end()) continue;
+    const auto response = traffic.responses.find(request.request_id);
+    if (response == traffic.responses.end()) continue;
     SearchPath& path = paths[{*round, *branch}];
     path.round = *round;
     path.branch = *branch;
-    for (const wire::SimulatedDesign& design : answer->second)
+    for (const wire::SimulatedDesign& design : response->second)
       if (design.failure.empty()) path.samples.push_back({design.modulus_pa, design.toughness_pa});
   }
   std::vector<SearchPath> all;
@@ -79,14 +78,12 @@ std::vector<SearchPath> searches_of(const FarmTalk& talk) {
   return all;
 }
 
-using Answers = std::map<int, std::map<std::string, game::DesignValues>>;
-
-/// What the testing machine would make of a simulated design.
+/// A simulated design as the testing machine would record it.
 game::DesignValues as_measured(const optimize::Performance& simulated, const tester::Curve& curve,
                                const material::Extensions& extensions) {
-  const sysid::Prediction shown = sysid::observed(
+  const sysid::Prediction recorded = sysid::observed(
       {.modulus_pa = simulated.modulus_pa, .toughness_pa = simulated.toughness_pa, .curve = curve}, extensions);
-  return {shown.modulus_pa, shown.toughness_pa};
+  return {recorded.modulus_pa, recorded.toughness_pa};
 }
 
 /// Whether two sets of eta are the same to a test of this design: of a pure material only its own constants count.
@@ -100,41 +97,43 @@ bool same_toughness_model(const pattern::Design& design, const material::Toughne
   return a == b;
 }
 
-/// What adopted models say of designs under standard conditions, as far as the validation agent ever asked.
-Answers answers_in(const FarmTalk& talk, const std::map<int, material::ParameterSet>& models) {
-  Answers answers;
-  for (const wire::SimulateRequest& request : talk.requests) {
-    const auto answer = talk.answers.find(request.request_id);
-    if (answer == talk.answers.end() || request.conditions != tester::TestConditions{}) continue;
+/// What adopted models predict for designs under standard conditions, as far as the validation agent requested it.
+ModelPredictions predictions_in(const FarmTraffic& traffic, const std::map<int, material::ParameterSet>& models) {
+  ModelPredictions predictions;
+  for (const wire::SimulateRequest& request : traffic.requests) {
+    const auto response = traffic.responses.find(request.request_id);
+    if (response == traffic.responses.end() || request.conditions != tester::TestConditions{}) continue;
     for (const auto& [round, model] : models) {
       const material::ParameterSet own = game::material_side(model);
       if (own.extensions != request.parameters.extensions) continue;
       const bool modulus = request.modulus && own.modulus == request.parameters.modulus;
-      for (const wire::SimulatedDesign& design : answer->second) {
+      for (const wire::SimulatedDesign& design : response->second) {
         const bool toughness =
             request.toughness && same_toughness_model(design.design, own.toughness, request.parameters.toughness);
         if (!design.failure.empty() || (!modulus && !toughness)) continue;
-        game::DesignValues& values = answers[round][design.design.name()];
-        const game::DesignValues shown =
+        game::DesignValues& values = predictions[round][design.design.name()];
+        const game::DesignValues recorded =
             as_measured({design.modulus_pa, design.toughness_pa}, design.curve, model.extensions);
-        if (modulus) values.modulus_pa = shown.modulus_pa;
-        if (toughness) values.toughness_pa = shown.toughness_pa;
+        if (modulus) values.modulus_pa = recorded.modulus_pa;
+        if (toughness) values.toughness_pa = recorded.toughness_pa;
       }
     }
   }
-  return answers;
+  return predictions;
 }
 
-/// The analyser's own questions: what each round's model says of everything measured by then, and of its proposals.
-void add_recorded(const store::RunRecord& run, Answers& answers) {
+/// The analyser's own requests: what each round's model predicts for everything measured by then, and for its
+/// proposals.
+void add_recorded(const store::RunRecord& run, ModelPredictions& predictions) {
   for (const auto& [number, round] : run.rounds) {
     const material::Extensions extensions = extensions_of(round);
-    const auto add = [&, &known = answers[number]](const std::string& design, const optimize::Performance& simulated,
-                                                   const tester::Curve& curve) {
-      const game::DesignValues shown = as_measured(simulated, curve, extensions);
+    const auto add = [&, &known = predictions[number]](const std::string& design,
+                                                       const optimize::Performance& simulated,
+                                                       const tester::Curve& curve) {
+      const game::DesignValues recorded = as_measured(simulated, curve, extensions);
       game::DesignValues& values = known[design];
-      if (!values.modulus_pa) values.modulus_pa = shown.modulus_pa;
-      if (!values.toughness_pa) values.toughness_pa = shown.toughness_pa;
+      if (!values.modulus_pa) values.modulus_pa = recorded.modulus_pa;
+      if (!values.toughness_pa) values.toughness_pa = recorded.toughness_pa;
     };
     for (const auto& [design, simulation] : round.simulated)
       if (simulation.failure.empty()) add(design, simulation.performance, simulation.curve);
@@ -217,6 +216,10 @@ void read_maps(const fs::path& run_dir, PaperSource& source) {
 
 }  // namespace
 
+std::optional<double> error_of(const std::optional<double>& simulated, const std::optional<double>& measured) {
+  return simulated && measured ? std::optional(std::abs(*simulated - *measured) / *measured) : std::nullopt;
+}
+
 PaperSource read_paper_source(const fs::path& run_dir, const std::string& run_id, const fs::path& thesis_folder) {
   PaperSource source;
   source.run_id = run_id;
@@ -224,9 +227,9 @@ PaperSource read_paper_source(const fs::path& run_dir, const std::string& run_id
   if (const fs::path file = run_dir / "inputs" / "base_materials.csv"; fs::exists(file))
     source.base_materials = game::read_base_materials(file);
   if (!thesis_folder.empty()) source.thesis = game::read_thesis_tables(thesis_folder);
-  source.searches = searches_of(farm_talk(run_dir, "proposal_agent"));
-  source.answers = answers_in(farm_talk(run_dir, "validation_agent"), adopted_models(run_dir));
-  add_recorded(source.run, source.answers);
+  source.searches = searches_of(farm_traffic(run_dir, "proposal_agent"));
+  source.predictions = predictions_in(farm_traffic(run_dir, "validation_agent"), adopted_models(run_dir));
+  add_recorded(source.run, source.predictions);
   find_groups(run_dir, source);
   read_maps(run_dir, source);
   return source;

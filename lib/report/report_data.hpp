@@ -21,7 +21,7 @@ using store::MeasuredPattern;
 using store::newest_closed_round;
 using store::newest_round;
 
-/// The homogeneous line that the newest model carries, as the machine shows it.
+/// The homogeneous line that the newest model carries, as recorded by the testing machine.
 std::vector<optimize::Performance> newest_line(const store::RunRecord& run);
 
 /// Mean relative errors of predictions that know nothing of structure.
@@ -46,6 +46,12 @@ struct Improvement {
   std::optional<double> toughness;  ///< T over that of the line at the same E
 };
 Improvement improvement_over(std::span<const optimize::Performance> line, const optimize::Performance& design);
+
+/// A measured design and its gain over homogeneous mixtures.
+struct ComparedDesign {
+  MeasuredPattern measured;
+  Improvement gain;
+};
 
 /// At most about `most` points: all of the Pareto front, and every k-th of the others.
 std::vector<optimize::Performance> thinned(std::span<const optimize::Performance> points, std::size_t most);

@@ -1,10 +1,9 @@
-// The proposed patterns, round by round; the specimens.
+#include "report/report_designs.hpp"
 
 #include <fmt/format.h>
 
+#include "report/design_picture.hpp"
 #include "report/report_data.hpp"
-#include "report/report_figures.hpp"
-#include "report/report_sections.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 
@@ -18,30 +17,33 @@ std::string deviation(double predicted, double measured) {
   return share > 0.0 ? "+" + percent(share) : percent(share);
 }
 
-/// `missing`: what stands for measured values where there are none.
+/// Predicted and measured E and T; `missing`: what stands for measured values where there are none.
 std::string performance_table(const store::RecordedProposal& proposal, const MeasuredPattern* measured,
                               const std::string& missing) {
   const optimize::Performance& p = proposal.predicted;
-  std::string rows = table_row({"predicted", gpa(p.modulus_pa), mpa(p.toughness_pa)});
+  ExhibitTable table{.name = "", .columns = {{"", ""}, {"", "E (GPa)"}, {"", "T (MPa)"}}};
+  table.add({text_cell("predicted"), gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa)});
   if (measured != nullptr) {
-    rows += table_row({"measured", with_error(measured->mean.modulus_pa * 1e-9, measured->modulus_sd_pa * 1e-9),
-                       with_error(measured->mean.toughness_pa * 1e-6, measured->toughness_sd_pa * 1e-6)});
-    rows += table_row({"off by", deviation(p.modulus_pa, measured->mean.modulus_pa),
-                       deviation(p.toughness_pa, measured->mean.toughness_pa)});
+    table.add({text_cell("measured"),
+               shown_cell(with_error(measured->mean.modulus_pa * 1e-9, measured->modulus_sd_pa * 1e-9)),
+               shown_cell(with_error(measured->mean.toughness_pa * 1e-6, measured->toughness_sd_pa * 1e-6))});
+    table.add({text_cell("prediction error"), shown_cell(deviation(p.modulus_pa, measured->mean.modulus_pa)),
+               shown_cell(deviation(p.toughness_pa, measured->mean.toughness_pa))});
   } else {
-    rows += table_row({"measured", missing, missing}, "reference");
+    table.add({text_cell("measured"), text_cell(missing), text_cell(missing)}, TableRowKind::aside);
   }
-  return "<table><thead>" + header_row({"", "E (GPa)", "T (MPa)"}) + "</thead><tbody>" + rows + "</tbody></table>\n";
+  return html_of(table);
 }
 
-std::string proposal_card(const store::RecordedProposal& proposal, const std::vector<MeasuredPattern>& measured,
-                          const std::string& missing) {
+ExhibitFigure proposal_card(const store::RecordedProposal& proposal, const std::vector<MeasuredPattern>& measured,
+                            const std::string& missing) {
+  constexpr int kPictureOfProposal = 120;  // px
   const auto design = pattern::design_from_name(proposal.design);
-  const std::string picture = design ? design_picture(*design, 120) : "";
-  return fmt::format("<div class=\"card\">{}<div><p>{}</p>\n{}<p class=\"quiet\">{}</p></div></div>\n", picture,
-                     design_name(proposal.design),
-                     performance_table(proposal, find_measured(measured, proposal.design), missing),
-                     escaped(proposal.reason));
+  return {.name = "",
+          .svg = design ? design_picture(*design, kPictureOfProposal) : "",
+          .caption = fmt::format("<p>{}</p>\n{}<p class=\"quiet\">{}</p>", design_name(proposal.design),
+                                 performance_table(proposal, find_measured(measured, proposal.design), missing),
+                                 escaped(proposal.reason))};
 }
 
 std::string in_words(const tester::TestConditions& c) {
@@ -59,57 +61,71 @@ std::string specimen_name(const std::string& name) {
   return fmt::format("<code{}>{}</code>", name.size() > kOneLine ? " class=\"long\"" : "", escaped(name));
 }
 
-std::string specimen_row(const store::MeasuredSpecimen& m) {
+std::vector<Cell> specimen_row(const store::MeasuredSpecimen& m) {
   const measurement::SpecimenRecord& r = m.record;
   const auto modulus = measurement::modulus_of(r),
              toughness = r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa;
-  const std::string validity = r.valid ? "valid" : "<strong class=\"bad\">invalid</strong>";
-  return table_row(
-      {specimen_name(r.specimen), m.round < 0 ? "–" : fmt::format("{}", m.round), design_name(r.design.name()),
-       test_name(r.test), modulus ? gpa(*modulus) : "–", toughness ? mpa(*toughness) : "–", conditions_of(r),
-       escaped(r.batch), validity, fmt::format("<span>{}</span>", escaped(r.note))},
-      r.valid ? "" : "invalid");
+  return {shown_cell(specimen_name(r.specimen)),
+          shown_cell(m.round < 0 ? "–" : fmt::format("{}", m.round)),
+          shown_cell(design_name(r.design.name())),
+          text_cell(test_name(r.test)),
+          gpa_cell(modulus),
+          mpa_cell(toughness),
+          text_cell(conditions_of(r)),
+          text_cell(r.batch),
+          shown_cell(r.valid ? "valid" : "<strong class=\"bad\">invalid</strong>"),
+          shown_cell(fmt::format("<span>{}</span>", escaped(r.note)))};
 }
 
 }  // namespace
 
-std::string proposal_section(const store::RunRecord& run) {
-  constexpr std::string_view kHeading = "Proposed patterns";
+Exhibit proposal_exhibit(const store::RunRecord& run) {
+  Exhibit exhibit{.id = "proposals", .heading = "Proposed patterns"};
   const auto measured = measured_patterns(run, newest_round(run).value_or(0));
   const std::string missing = is_over(run) ? "not measured" : "awaited";
-  std::string content;
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (round->second.proposals.empty()) continue;
-    content += fmt::format("<h3>Round {}</h3>\n<div class=\"cards\">\n", round->first);
+    Exhibit& part = exhibit.parts.emplace_back(Exhibit{.id = "", .heading = fmt::format("Round {}", round->first)});
     for (const store::RecordedProposal& proposal : round->second.proposals)
-      content += proposal_card(proposal, measured, missing);
-    content += "</div>\n";
+      part.figures.push_back(proposal_card(proposal, measured, missing));
   }
-  if (content.empty()) return section("proposals", kHeading, awaited("the first proposal"));
-  return section("proposals", kHeading,
-                 paragraph("Rigid pixels dark, soft ones light; one unit of 20 × 20. Predictions are those the pattern "
-                           "was chosen by, of the material without the "
-                           "testing machine.") +
-                     content);
+  exhibit.notes.push_back(
+      exhibit.parts.empty()
+          ? awaited("the first proposal")
+          : fmt::format("One unit of 20 × 20 pixels each: {}. A pattern was chosen by its predicted values, which are "
+                        "those of the material without the testing machine; the sentence below them says why.",
+                        phase_legend()));
+  return exhibit;
 }
 
-std::string specimen_section(const store::RunRecord& run) {
-  constexpr std::string_view kHeading = "Specimens";
-  if (run.specimens.empty()) return section("specimens", kHeading, awaited("the first measurement"));
+Exhibit specimen_exhibit(const store::RunRecord& run) {
+  Exhibit exhibit{.id = "specimens", .heading = "Specimens"};
+  if (run.specimens.empty()) {
+    exhibit.notes.push_back(awaited("the first measurement"));
+    return exhibit;
+  }
+  ExhibitTable table{.name = "",
+                     .columns = {{"", "specimen"},
+                                 {"", "round", "That it was ordered in; –: nobody ordered it"},
+                                 {"", "design", "Key of a pattern, or a homogeneous material"},
+                                 {"", "test", "modulus: a plain bar; toughness: a notched specimen"},
+                                 {"", "E (GPa)", "Young's modulus"},
+                                 {"", "T (MPa)", "Toughness: area under the curve until the specimen separates"},
+                                 {"", "conditions", "Orientation, strain rate, thickness"},
+                                 {"", "batch", "Specimens printed together"},
+                                 {"", "validity", "As reviewed"},
+                                 {"", "note"}}};
+  table.look = "words";
   int invalid = 0;
-  std::string rows;
   for (const store::MeasuredSpecimen& m : run.specimens) {
-    rows += specimen_row(m);
+    table.add(specimen_row(m), m.record.valid ? TableRowKind::own : TableRowKind::aside);
     if (!m.record.valid) ++invalid;
   }
-  const std::string count = fmt::format(
-      "{} specimens, {} of them invalid. Validity as reviewed; invalid ones count nowhere but are shown. Standard "
-      "conditions: {}.",
-      run.specimens.size(), invalid, in_words({}));
-  return section("specimens", kHeading,
-                 paragraph(count) + table(header_row({"specimen", "round", "design", "test", "E (GPa)", "T (MPa)",
-                                                      "conditions", "batch", "validity", "note"}),
-                                          rows, "words"));
+  exhibit.notes.push_back(
+      fmt::format("{} {}, {} of them invalid. Invalid ones are shown, but count nowhere. Standard conditions: {}.",
+                  run.specimens.size(), run.specimens.size() == 1 ? "specimen" : "specimens", invalid, in_words({})));
+  exhibit.tables.push_back(std::move(table));
+  return exhibit;
 }
 
 }  // namespace nacre::report

@@ -1,9 +1,7 @@
-// What the diagnosis of each round says.
+#include "report/report_diagnosis.hpp"
 
 #include <fmt/format.h>
 
-#include "material/effect_words.hpp"
-#include "report/report_sections.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 #include "store/misfit.hpp"
@@ -11,39 +9,43 @@
 namespace nacre::report {
 namespace {
 
-std::string effect_table(const std::vector<store::RecordedEffect>& effects) {
-  if (effects.empty()) return "";
-  std::string rows;
+ExhibitTable effect_table(const std::vector<store::RecordedEffect>& effects) {
+  ExhibitTable table{.name = "",
+                     .columns = {{"", "cause"},
+                                 {"", "effect size", "Fitted value of the parameter that the cause adds to the model"},
+                                 {"", "90 % interval", "Holds the true value in nine of ten cases"},
+                                 {"", "unit"}}};
   for (const store::RecordedEffect& e : effects) {
-    rows += table_row({effect_name(e.name), quantity(e.parameter),
-                       fmt::format("{} … {}", quantity(e.interval_low), quantity(e.interval_high)), escaped(e.unit)});
+    table.add({shown_cell(effect_name(e.name)), shown_cell(quantity(e.parameter)),
+               shown_cell(fmt::format("{} … {}", quantity(e.interval_low), quantity(e.interval_high))),
+               text_cell(e.unit)});
   }
-  return table(header_row({"named effect", "size", "90 % interval", "unit"}), rows);
+  return table;
 }
 
-std::string status_in_words(const std::string& status) {
-  if (status == "in_set") return "<strong>explains the misfit</strong>";
-  if (status == "excluded") return "excluded";
-  if (status == "invisible") return "invisible to these specimens";
-  if (status == "not_applicable") return "not applicable";
-  return escaped(status);
-}
-
-std::string candidate_table(const std::vector<store::RecordedCandidate>& candidates) {
-  if (candidates.empty()) return "";
-  std::string rows;
+ExhibitTable candidate_table(const std::vector<store::RecordedCandidate>& candidates) {
+  ExhibitTable table{
+      .name = "",
+      .columns = {
+          {"", "candidate effect"},
+          {"", "status",
+           "possible cause: explains the data. ruled out: others explain them better, or nothing is to be explained. "
+           "not visible in these data: it may act, these specimens would not show it. does not apply: these tests "
+           "cannot show it"},
+          {"", "improvement of fit (chi squared)",
+           "How much chi squared falls when the effect joins the refitted base model"},
+          {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
+          {"", "imitated by base model", "Share of the effect's signature that refitted base parameters imitate"}}};
   for (const store::RecordedCandidate& c : candidates) {
-    const bool took_part = c.status != "not_applicable";
-    rows += table_row({effect_name(c.name), status_in_words(c.status), took_part ? figure(c.statistic) : "–",
-                       took_part ? chance(c.p_family_wise) : "–", took_part ? percent(c.absorption) : "–"});
+    const bool was_fitted = c.status != "not_applicable";
+    const std::string status = escaped(status_in_words(c.status));
+    table.add({shown_cell(effect_name(c.name)),
+               shown_cell(c.status == "in_set" ? fmt::format("<strong>{}</strong>", status) : status),
+               shown_cell(was_fitted ? figure(c.statistic) : "–"),
+               shown_cell(was_fitted ? chance(c.p_family_wise) : "–"),
+               shown_cell(was_fitted ? percent(c.absorption) : "–")});
   }
-  return table(header_row({"candidate", "status", "drop of χ²", "p (family-wise)", "absorbed by the base"}), rows);
-}
-
-/// A verdict that the calibration of the same round speaks against does not stand alone.
-std::string disagreement(const store::RoundRecord& round) {
-  const std::string words = store::misfit_beside_verdict(round);
-  return words.empty() ? "" : paragraph(escaped(words), "warning");
+  return table;
 }
 
 }  // namespace
@@ -51,34 +53,37 @@ std::string disagreement(const store::RoundRecord& round) {
 std::string verdict_in_words(const std::string& verdict) {
   if (verdict == "base_sufficient") return "the base model is sufficient";
   if (verdict == "named") return "a cause is named";
-  if (verdict == "ambiguous") return "ambiguous, these data cannot tell yet";
+  if (verdict == "ambiguous") return "several causes are possible, more tests are needed";
   if (verdict == "unexplained") return "something is wrong that no known effect explains";
-  return escaped(verdict);
+  return verdict;
 }
 
-std::string diagnosis_section(const store::RunRecord& run) {
-  constexpr std::string_view kHeading = "Diagnosis: what the simulation gets wrong, and why";
-  std::string content;
+std::string status_in_words(std::string_view status) {
+  if (status == "in_set") return "possible cause";
+  if (status == "excluded") return "ruled out";
+  if (status == "invisible") return "not visible in these data";
+  if (status == "not_applicable") return "does not apply";
+  return std::string(status);
+}
+
+Exhibit diagnosis_exhibit(const store::RunRecord& run) {
+  Exhibit exhibit{.id = "diagnosis", .heading = "Diagnosis: what the simulation gets wrong, and why"};
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
     const store::RecordedDiagnosis& d = *round->second.diagnosis;
-    // The summary says what a named effect gains on held-out designs (diagnosis::gain_in_words): no second figure here.
-    content += fmt::format("<h3>Round {}: {}</h3>\n", round->first, verdict_in_words(d.verdict)) +
-               paragraph(escaped(d.summary)) + disagreement(round->second) + effect_table(d.effects) +
-               candidate_table(d.candidates);
+    // The summary says what a named effect gains on new designs (diagnosis::gain_in_words): no second figure here.
+    Exhibit part{.id = "", .heading = fmt::format("Round {}: {}", round->first, verdict_in_words(d.verdict))};
+    part.notes.push_back(escaped(d.summary));
+    // A verdict that the calibration of the same round speaks against does not stand alone.
+    if (const std::string against = store::misfit_beside_verdict(round->second); !against.empty())
+      part.warnings.push_back(escaped(against));
+    part.tables = {effect_table(d.effects), candidate_table(d.candidates)};
+    exhibit.parts.push_back(std::move(part));
   }
-  if (content.empty())
-    return section(
-        "diagnosis", kHeading,
+  if (exhibit.parts.empty())
+    exhibit.notes.push_back(
         awaited("the first diagnosis, which follows the calibration of round 1 (unless the scenario turns it off)"));
-  return section(
-      "diagnosis", kHeading,
-      content +
-          paragraph(
-              "Drop of χ²: how much better the measured moduli fit when the effect joins the refitted base model. p: "
-              "chance of the best candidate doing as well when "
-              "the base model is true. Absorbed: the share of the effect's signature that the base parameters imitate.",
-              "quiet"));
+  return exhibit;
 }
 
 }  // namespace nacre::report

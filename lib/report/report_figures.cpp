@@ -161,15 +161,15 @@ std::string hypervolume_figure(const store::RunRecord& run) {
   more.insert(more.end(), measured.begin(), measured.end());
   Plot plot(round_axes("Hypervolume", "GPa MPa", gamut, more));
   plot.band(low, high, Ink::measured, "");
-  line_with_dots(plot, gamut, Ink::simulated, "simulated");
-  line_with_dots(plot, measured, Ink::measured, "measured, ± 1 standard error");
+  line_with_dots(plot, gamut, Ink::simulated, "simulated front");
+  line_with_dots(plot, measured, Ink::measured, "measured front, ± 1 standard error");
   return plot.svg();
 }
 
 std::string gap_figure(const store::RunRecord& run) {
   const auto gap = over_rounds(run, [](const auto& s) { return s.gap; });
-  Plot plot(round_axes("Gap between the fronts", "GPa MPa", gap, {}));
-  line_with_dots(plot, gap, Ink::simulated, "area of the symmetric difference");
+  Plot plot(round_axes("Gap between simulation and laboratory", "GPa MPa", gap, {}));
+  line_with_dots(plot, gap, Ink::simulated, "area between the two fronts");
   return plot.svg();
 }
 
@@ -179,7 +179,7 @@ std::string signed_gap_figure(const store::RunRecord& run) {
   const auto high = over_rounds(run, [](const auto& s) { return 2.0 * s.hypervolume_error; });
   std::vector<PlotPoint> more(low);
   more.insert(more.end(), high.begin(), high.end());
-  Plot plot(round_axes("Signed gap: simulated − measured", "GPa MPa", gap, more));
+  Plot plot(round_axes("Signed gap: simulated less measured", "GPa MPa", gap, more));
   plot.band(low, high, Ink::measured, "± 2 standard errors");
   plot.zero_line();
   line_with_dots(plot, gap, Ink::simulated, "signed gap");
@@ -195,7 +195,7 @@ struct DesignCurves {
   std::vector<tester::Curve> valid, invalid;
 };
 
-DesignCurves& entry_of(std::vector<DesignCurves>& all, const std::string& design) {
+DesignCurves& curves_of(std::vector<DesignCurves>& all, const std::string& design) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const DesignCurves& c) { return c.design == design; });
   if (found != all.end()) return *found;
   all.push_back({});
@@ -203,7 +203,7 @@ DesignCurves& entry_of(std::vector<DesignCurves>& all, const std::string& design
   return all.back();
 }
 
-/// Notched specimens tested under standard conditions; the simulated curve as the testing machine would show it.
+/// Notched specimens tested under standard conditions; the simulated curve as the testing machine would record it.
 std::vector<DesignCurves> collect_curves(const store::RunRecord& run) {
   std::vector<DesignCurves> all;
   const int newest = newest_round(run).value_or(0);
@@ -211,17 +211,17 @@ std::vector<DesignCurves> collect_curves(const store::RunRecord& run) {
     const measurement::SpecimenRecord& r = m.record;
     if (r.test != tester::TestKind::toughness || r.curve.empty() || !r.design.layout()) continue;
     if (!game::is_standard(r.conditions)) continue;
-    DesignCurves& entry = entry_of(all, r.design.name());
-    (r.valid ? entry.valid : entry.invalid).push_back(r.curve);
-    entry.measured_in = std::max(entry.measured_in, m.round < 0 ? newest : m.round);
+    DesignCurves& known = curves_of(all, r.design.name());
+    (r.valid ? known.valid : known.invalid).push_back(r.curve);
+    known.measured_in = std::max(known.measured_in, m.round < 0 ? newest : m.round);
   }
   for (const auto& [number, round] : run.rounds) {
     const material::Extensions extensions = extensions_of(round);
     for (const auto& [design, simulation] : round.simulated) {
       if (simulation.curve.empty()) continue;
-      DesignCurves& entry = entry_of(all, design);
-      entry.model = number;
-      entry.simulated = measurement::observe_curve(simulation.curve, extensions);
+      DesignCurves& known = curves_of(all, design);
+      known.model = number;
+      known.simulated = measurement::observe_curve(simulation.curve, extensions);
     }
   }
   std::stable_sort(all.begin(), all.end(),
@@ -253,22 +253,9 @@ std::string curve_figure(const DesignCurves& curves, const Range& x, const Range
   for (std::size_t i = 0; i < curves.valid.size(); ++i) {
     plot.line(curve_points(curves.valid[i]), Ink::measured, Stroke::thin, i == 0 ? "measured" : "");
   }
-  plot.line(curve_points(curves.simulated), Ink::simulated, Stroke::solid, fmt::format("model {}", curves.model));
+  plot.line(curve_points(curves.simulated), Ink::simulated, Stroke::solid,
+            fmt::format("model of round {}", curves.model));
   return plot.svg();
-}
-
-/// Rigid pixels as one path, a run of a row at a time.
-std::string pixels_path(const pattern::Layout& layout) {
-  std::string path;
-  for (int row = 0; row < pattern::kSide; ++row) {
-    for (int column = 0; column < pattern::kSide;) {
-      int end = column;
-      while (end < pattern::kSide && layout.rigid(row, end)) ++end;
-      if (end > column) path += fmt::format("M{} {}h{}v1h-{}Z", column, row, end - column, end - column);
-      column = end + 1;
-    }
-  }
-  return path;
 }
 
 }  // namespace
@@ -302,20 +289,6 @@ std::vector<std::string> curve_figures(const store::RunRecord& run) {
   std::vector<std::string> figures;
   for (const DesignCurves& curves : all) figures.push_back(curve_figure(curves, x, y));
   return figures;
-}
-
-std::string design_picture(const pattern::Design& design, int side) {
-  std::string content;
-  if (const pattern::Layout* layout = design.layout()) {
-    content = fmt::format("<path class=\"rigid\" d=\"{}\"/>", pixels_path(*layout));
-  } else {
-    content =
-        fmt::format("<rect class=\"rigid\" width=\"20\" height=\"20\" opacity=\"{:.2f}\"/>", design.rigid_fraction());
-  }
-  return fmt::format(
-      "<svg class=\"unit\" viewBox=\"0 0 20 20\" width=\"{0}\" height=\"{0}\" role=\"img\" aria-label=\"unit of {1}\">"
-      "<rect class=\"soft\" width=\"20\" height=\"20\"/>{2}</svg>",
-      side, escaped(design.name()), content);
 }
 
 }  // namespace nacre::report

@@ -1,12 +1,11 @@
 #pragma once
-// The figures of the report as inline SVG.
+// The figures of the report of a game as inline SVG; its pieces serve other exhibits, too.
 
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "pattern/design.hpp"
 #include "report/report_data.hpp"
 #include "report/svg.hpp"
 #include "store/run_record.hpp"
@@ -23,7 +22,6 @@ std::vector<std::string> round_figures(const store::RunRecord& run);
 /// One plot per design with a curve, simulated against measured on common axes; designs measured last come first.
 std::vector<std::string> curve_figures(const store::RunRecord& run);
 
-// Pieces that the exhibits share (paper.hpp).
 inline constexpr std::size_t kMostGamutPoints = 1500;  ///< of one gamut in a figure: more only weigh on the page
 PlotPoint to_point(const optimize::Performance& performance);  ///< GPa, MPa
 std::vector<PlotPoint> to_points(std::span<const optimize::Performance> performances);
@@ -31,8 +29,5 @@ Range range_of(std::span<const PlotPoint> points, double PlotPoint::*coordinate)
 std::vector<PlotPoint> curve_points(const tester::Curve& curve);  ///< percent, MPa
 /// Stress-strain curves of notched specimens printed upright, valid ones, by design.
 std::map<std::string, std::vector<tester::Curve>> measured_curves(const store::RunRecord& run);
-
-/// The unit of a design as a picture of 20 x 20 pixels; a homogeneous material as a plain square. `side` in px.
-std::string design_picture(const pattern::Design& design, int side);
 
 }  // namespace nacre::report

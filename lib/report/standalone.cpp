@@ -1,14 +1,11 @@
-// A picture as a file of its own. Programs that print or edit pictures (librsvg, say) know nothing of CSS variables and
-// drop what they colour: the style is written out.
+#include "report/standalone.hpp"
 
 #include <map>
-#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "report/report_style.hpp"
-#include "report/svg.hpp"
+#include "report/page_style.hpp"
 
 namespace nacre::report {
 namespace {
@@ -57,7 +54,8 @@ std::string written_out(std::string_view text, const Variables& variables) {
 /// The rules of kFigureStyle in light colours. One that colours by ink (`--c`) stands once for every ink, `.sim` and so
 /// on, whose rule says nothing else.
 std::string light_style() {
-  const Variables colours = variables_in(kLightColours);
+  Variables colours = variables_in(kLightColours);
+  colours.merge(variables_in(phase_colours()));
   std::map<std::string, Variables> inks;
   std::string style;
   for_each_piece(kFigureStyle, '}', [&](std::string_view rule) {

@@ -258,7 +258,13 @@ void Plot::staircase(std::span<const PlotPoint> front, Ink ink, std::string_view
     steps.push_back(front[i]);
     steps.push_back({front[i].x, i + 1 < front.size() ? front[i + 1].y : 0.0});
   }
-  line(steps, ink, Stroke::solid, label);
+  std::string path;  // every corner, however near to the last one: a line that leaves one out would slope
+  for (const PlotPoint& p : steps) {
+    if (is_finite(p)) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px(p.x), py(p.y));
+  }
+  if (path.empty()) return;
+  marks_ += fmt::format("<path class=\"{} line steps\" d=\"{}\"/>\n", ink_class(ink), path);
+  add_to_legend(fmt::format("<path class=\"{} line steps\" d=\"M0 -4h9v8h9\"/>", ink_class(ink)), label);
 }
 
 void Plot::band(std::span<const PlotPoint> lower, std::span<const PlotPoint> upper, Ink ink, std::string_view label) {

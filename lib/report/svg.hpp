@@ -100,8 +100,4 @@ class Plot {
   std::vector<LegendEntry> legend_;
 };
 
-/// A picture of the page as a file of its own, light whatever the viewer's scheme: name space and style sheet are put
-/// in.
-std::string standalone(const std::string& svg);
-
 }  // namespace nacre::report

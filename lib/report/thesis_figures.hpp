@@ -1,6 +1,5 @@
 #pragma once
-// What the thesis reports of its own game, where it does not follow from data/thesis: the run's figures stand beside
-// it.
+// What the thesis reports of its own game, where it does not follow from data/thesis: shown with the run's figures.
 
 #include <algorithm>
 
@@ -10,7 +9,7 @@ namespace nacre::report {
 /// Percent.
 struct ThesisRound {
   int round, count;
-  double held_out_modulus, held_out_toughness;  // 0: none
+  double out_of_sample_modulus, out_of_sample_toughness;  // 0: none
   double before_modulus, before_modulus_max, after_modulus, after_modulus_max;
   double before_toughness, before_toughness_max, after_toughness, after_toughness_max;
 };

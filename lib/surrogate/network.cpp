@@ -48,17 +48,17 @@ std::vector<float> quarters_of(std::span<const pattern::Pattern> patterns) {
   return quarters;
 }
 
-/// What standardises the targets.
-struct Scale {
+/// Mean and deviation by which targets are standardised.
+struct TargetScale {
   double mean = 0.0, deviation = 1.0;
 };
 
-Scale scale_of(std::span<const double> values) {
+TargetScale scale_of(std::span<const double> values) {
   const double spread = standard_deviation(values);
   return {mean(values), spread > 0.0 ? spread : 1.0};
 }
 
-std::vector<float> standardised(std::span<const double> values, const Scale& scale) {
+std::vector<float> standardised(std::span<const double> values, const TargetScale& scale) {
   std::vector<float> targets;
   for (const double value : values) targets.push_back(static_cast<float>((value - scale.mean) / scale.deviation));
   return targets;
@@ -66,39 +66,40 @@ std::vector<float> standardised(std::span<const double> values, const Scale& sca
 
 class Ensemble final : public Predictor {
  public:
-  Ensemble(std::vector<std::unique_ptr<Network>> members, const Scale& scale)
+  Ensemble(std::vector<std::unique_ptr<Network>> members, const TargetScale& scale)
       : members_(std::move(members)), scale_(scale) {}
 
   std::vector<double> means(std::span<const pattern::Pattern> at) const override {
     std::vector<double> result;
-    for (const Prediction& prediction : predict(at)) result.push_back(prediction.mean);
+    for (const PatternPrediction& prediction : predict(at)) result.push_back(prediction.mean);
     return result;
   }
 
-  std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const override {
-    const Eigen::MatrixXd values = guesses(at);
+  std::vector<PatternPrediction> predict(std::span<const pattern::Pattern> at) const override {
+    const Eigen::MatrixXd values = member_predictions(at);
     const Eigen::RowVectorXd means = values.colwise().mean();
     const Eigen::RowVectorXd deviations = apart(values).colwise().norm();
-    std::vector<Prediction> result;
+    std::vector<PatternPrediction> result;
     for (Eigen::Index i = 0; i < values.cols(); ++i) result.push_back({means[i], deviations[i]});
     return result;
   }
 
   Eigen::MatrixXd covariance(std::span<const pattern::Pattern> at) const override {
-    const Eigen::MatrixXd differences = apart(guesses(at));
+    const Eigen::MatrixXd differences = apart(member_predictions(at));
     return differences.transpose() * differences;
   }
 
  private:
-  /// What each member (row) says of each pattern (column).
-  Eigen::MatrixXd guesses(std::span<const pattern::Pattern> at) const {
+  /// Prediction of each pattern (column) by each member (row).
+  Eigen::MatrixXd member_predictions(std::span<const pattern::Pattern> at) const {
     const std::vector<float> quarters = quarters_of(at);
     Eigen::MatrixXd values(static_cast<Eigen::Index>(members_.size()), static_cast<Eigen::Index>(at.size()));
     const std::lock_guard lock(mutex_);
     for (std::size_t m = 0; m < members_.size(); ++m) {
-      const std::vector<float> said = members_[m]->evaluate(quarters);
+      const std::vector<float> predicted = members_[m]->evaluate(quarters);
       for (std::size_t i = 0; i < at.size(); ++i)
-        values(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(i)) = scale_.mean + scale_.deviation * said[i];
+        values(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(i)) =
+            scale_.mean + scale_.deviation * predicted[i];
     }
     return values;
   }
@@ -110,7 +111,7 @@ class Ensemble final : public Predictor {
   }
 
   std::vector<std::unique_ptr<Network>> members_;
-  Scale scale_;
+  TargetScale scale_;
   mutable std::mutex mutex_;
 };
 
@@ -163,7 +164,7 @@ std::unique_ptr<Predictor> fit_ensemble(const Samples& samples, std::size_t sett
   const std::size_t first =
       settings.warm_start ? std::clamp(settled, std::size_t{1}, samples.values.size()) : samples.values.size();
   // One scale for both trainings, or the second would have to undo the first.
-  const Scale scale = scale_of(samples.values.first(first));
+  const TargetScale scale = scale_of(samples.values.first(first));
   const std::vector<float> quarters = quarters_of(samples.patterns), targets = standardised(samples.values, scale);
   const std::vector<float> first_quarters(quarters.begin(),
                                           quarters.begin() + static_cast<std::ptrdiff_t>(first * kQuarterPixels));

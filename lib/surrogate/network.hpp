@@ -1,6 +1,6 @@
 #pragma once
 // Residual networks on the quarter of a pattern (Figure 2-10), and predictors made of them. The networks live in a
-// library of their own that is loaded when the first one is made, so that no other program carries libtorch about.
+// library of their own that is loaded when the first one is made, so that no other program needs libtorch.
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,6 @@
 #pragma once
-// How alike two patterns are to a crack: neighbourhood by neighbourhood, at the same places.
+// Covariance of two patterns for a quantity that depends on local structure, as fracture does: neighbourhood by
+// neighbourhood, at the same places.
 
 #include <array>
 #include <cstdint>
@@ -25,7 +26,7 @@ struct PatchKernel {
   double whole_decay = 0.95;     ///< in (0, 1), per pixel of the quarter
   double feature_variance = 0.0;
   double feature_length = 1.0;   ///< root mean square over the features
-  double noise_variance = 0.01;  ///< what neighbourhoods cannot explain; on the diagonal only
+  double noise_variance = 0.01;  ///< the part that neighbourhoods cannot explain; on the diagonal only
   double signal_variance() const {
     return pixel_variance + patch_variance + region_variance + whole_variance + feature_variance;
   }

@@ -21,10 +21,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The prior's mean: least squares on 1, phi, phi^2, the features of the trend, and what `base` predicts.
-class Trend {
+/// The prior's mean: least squares on 1, phi, phi^2, the features of the trend, and the predictions of `base`.
+class PriorMean {
  public:
-  Trend(const Samples& samples, const Predictor* base) : features_(samples.trend), base_(base) {
+  PriorMean(const Samples& samples, const Predictor* base) : features_(samples.trend), base_(base) {
     const MatrixXd terms = terms_at(samples.patterns);
     const Eigen::Map<const VectorXd> values(samples.values.data(), static_cast<Index>(samples.values.size()));
     // The ridge decides only where the samples do not (all of one fraction, fewer samples than terms).
@@ -57,10 +57,10 @@ class Trend {
   VectorXd coefficients_;
 };
 
-/// Patterns as the covariance sees them.
+/// Patterns in the form that the covariance uses.
 struct Points {
   std::vector<QuarterRows> rows;
-  MatrixXd features;  ///< a column for each pattern; without rows where nobody gives any
+  MatrixXd features;  ///< a column for each pattern; without rows when there are none
   std::size_t size() const { return rows.size(); }
 };
 
@@ -135,11 +135,11 @@ class PatchProcess final : public Predictor {
     return {means.begin(), means.end()};
   }
 
-  std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const override {
+  std::vector<PatternPrediction> predict(std::span<const pattern::Pattern> at) const override {
     MatrixXd cross = covariance_.between(samples_, points_of(at, likeness_));
     const VectorXd means = trend_(at) + cross.transpose() * weights_;
     factor_.matrixL().solveInPlace(cross);
-    std::vector<Prediction> result(at.size());
+    std::vector<PatternPrediction> result(at.size());
     for (Index i = 0; i < cross.cols(); ++i) {
       const double variance = signal_variance_ - cross.col(i).squaredNorm();
       result[i] = {means[i], std::sqrt(std::max(0.0, variance))};
@@ -157,7 +157,7 @@ class PatchProcess final : public Predictor {
 
  private:
   std::shared_ptr<const Predictor> base_;
-  Trend trend_;
+  PriorMean trend_;
   Features likeness_;
   Points samples_;
   Covariance covariance_;
@@ -191,7 +191,7 @@ PatchKernel kernel_at(const std::vector<double>& at) {
 
 struct KernelPosterior {
   Points points;
-  VectorXd values;  ///< standardised while a kernel is looked for
+  VectorXd values;  ///< standardised while a kernel is searched
   /// Where a search for its kernel begins.
   std::vector<double> centre() const {
     return {std::begin(kCentre), points.features.rows() > 0 ? std::end(kCentre) : std::begin(kCentre) + kPatchUnknowns};
@@ -247,10 +247,10 @@ std::vector<std::size_t> chosen_indices(std::size_t size, std::size_t count, Ran
   return indices;
 }
 
-/// What the prior's mean leaves of at most kKernelSamples samples.
+/// Residuals of the prior's mean at no more than kKernelSamples samples.
 KernelPosterior deciding_samples(const Samples& samples, std::uint64_t seed, const Predictor* base) {
   assert(samples.patterns.size() == samples.values.size() && !samples.values.empty());
-  const Trend trend(samples, base);
+  const PriorMean trend(samples, base);
   const VectorXd residuals =
       Eigen::Map<const VectorXd>(samples.values.data(), static_cast<Index>(samples.values.size())) -
       trend(samples.patterns);
@@ -266,8 +266,8 @@ KernelPosterior deciding_samples(const Samples& samples, std::uint64_t seed, con
   return posterior;
 }
 
-/// Kernels found lately, by content of the question: a search asks the same question many times. What is answered does
-/// not depend on it.
+/// Kernels found lately, by content of their samples: a search fits to the same samples many times. Results do not
+/// depend on it.
 class KernelMemory {
  public:
   std::vector<double> most_probable_of(KernelPosterior& posterior) {

@@ -14,8 +14,9 @@ namespace nacre::surrogate {
 struct Samples {
   std::span<const pattern::Pattern> patterns;
   std::span<const double> values;
-  Features trend = {};     ///< the mean of the prior is linear in them, beside a parabola in the rigid fraction
-  Features likeness = {};  ///< patterns that are close in them are alike: a Gaussian covariance beside that of patches
+  Features trend = {};     ///< the mean of the prior is linear in them, besides a parabola in the rigid fraction
+  Features likeness = {};  ///< patterns that are close in them are correlated: a Gaussian covariance added to that of
+                           ///< patches
 };
 
 /// At most so many samples decide on a kernel.
@@ -26,13 +27,13 @@ inline constexpr int kKernelSamples = 300;
 PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base = nullptr);
 
 /// Logarithm of the density that a kernel gives the samples that decided on it (as chosen by `seed`), with the prior's
-/// mean fitted to all of them: what a base is worth shows in it.
+/// mean fitted to all of them: by it the value of a base is judged.
 double log_likelihood(const Samples& samples, const PatchKernel& kernel, std::uint64_t seed,
                       const Predictor* base = nullptr);
 
 /// The posterior. O(n^3 / 3) to make, O(n) per mean, O(n^2) per deviation. `base`, when given, is a predictor of a
-/// kindred quantity (another model's, another fidelity's): the prior's mean then has a term b base(x), and the process
-/// learns only what that one gets wrong. Needs one sample.
+/// related quantity (another model's, another fidelity's): the prior's mean then has a term b base(x), and the process
+/// learns only its errors. Needs one sample.
 std::unique_ptr<Predictor> make_patch_process(const Samples& samples, const PatchKernel& kernel,
                                               std::shared_ptr<const Predictor> base = nullptr);
 

@@ -1,12 +1,15 @@
+#include "sysid/base_calibration.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "sysid/base_fit.hpp"
-#include "sysid/calibration.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
@@ -95,8 +98,8 @@ struct BaseCalibration::State {
         .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
   }
 
-  /// Start, the ends of the range above and below it, and what lies between: a specimen that rings is judged broken too
-  /// early, and which damping calms it depends on the material.
+  /// The start, the bounds of the range above and below it, and a value between: a specimen that rings is judged broken
+  /// too early, and the damping that calms it depends on the material.
   void list_dampings() {
     const ParameterRange& range = eta_ranges()[at(kGamma, 0)];
     const double start = to_vector(centred_start().toughness)[at(kGamma, 0)];
@@ -268,7 +271,7 @@ struct BaseCalibration::State {
       shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
     result.simulations += static_cast<int>(predictions.size());
-    if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
+    if (std::any_of(told.begin(), told.end(), [](const auto& each) { return !each; })) return;
     for (std::size_t k = 0; k < wanted.size(); ++k) hand_over(wanted[k], candidates[k], *told[k]);
     if (phase == Phase::start) {
       phase = Phase::dampings;
@@ -329,7 +332,7 @@ struct BaseCalibration::State {
     result.parameters.toughness = material::toughness_from_vector(eta);
   }
 
-  /// Each material meets what was measured of it, whatever its scatter: no intervals are known.
+  /// Each material meets its measured values, whatever their scatter: no intervals are known.
   void add_estimates(std::string_view table, std::span<const std::string_view> names,
                      std::span<const ParameterRange> ranges, std::span<const double> values) {
     for (std::size_t j = 0; j < values.size(); ++j)

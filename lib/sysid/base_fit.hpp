@@ -1,16 +1,19 @@
 #pragma once
-// Round 0 (thesis 3.2) for one material: the parameters that its own tests depend on.
+// Round 0 (thesis 3.2) for one material: the parameters that its own tests depend on. T grows with W at constant E;
+// peak stress with sqrt(E W).
 
 #include <optional>
 #include <vector>
 
+#include "material/ranges.hpp"
 #include "measurement/summary.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 #include "sysid/ratio_search.hpp"
 
 namespace nacre::sysid {
 
-/// Relative error of a base material's toughness at which its fit has done what round 0 asks.
+/// Relative error of a base material's toughness at which its fit has done its task.
 inline constexpr double kToughnessAim = 0.01;
 
 /// The parameters of one material in the toughness tester.
@@ -25,9 +28,9 @@ struct MaterialRanges {
 /// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the
 /// measured modulus as nearly as its range allows, and W is searched until the toughness is met. Where no W meets it,
 /// because T jumps across the measured value when a crack arrests, E and W are scaled together from the nearest miss:
-/// at the same W / E a crack runs alike and T grows in proportion. Where that fails too, other E are tried. Where a
-/// curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W, toughness
-/// hardly depends on E while stress grows with its square root.
+/// at the same W / E the crack path is the same and T grows in proportion. Where that fails too, other E are tried.
+/// Where a curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W,
+/// toughness hardly depends on E while stress grows with its square root.
 class MaterialFit {
  public:
   MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,

@@ -4,13 +4,21 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
+#include <span>
 
 #include "base/random.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/fit.hpp"
+#include "sysid/least_squares_fit.hpp"
 #include "sysid/likelihood.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/parallel_fit.hpp"
+#include "sysid/posterior_fit.hpp"
+#include "sysid/rivals/emulator_fit.hpp"
+#include "sysid/rivals/objective_fit.hpp"
 #include "sysid/spread.hpp"
+#include "sysid/weights.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -18,7 +26,7 @@ namespace {
 using material::ParameterRange;
 using material::ParameterSet;
 
-/// The fit of one tester's parameters and which measured designs it is about.
+/// The fit of one tester's parameters, and the measured designs that it uses.
 struct Half {
   std::unique_ptr<ParameterFit> fit;  ///< none when nothing was measured
   std::vector<std::size_t> items;     ///< indices into the measured designs
@@ -64,7 +72,8 @@ optimize::Algorithm algorithm_of(ToughnessSearch search) {
 constexpr std::size_t kModulusDimensions = material::kModulusParameterCount - 1;
 constexpr std::size_t kToughnessDimensions = material::kToughnessParameterCount;
 
-/// A coordinate that is also off by an error of the numerics, `log_sd` in the parameter's natural logarithm.
+/// A coordinate with a discretisation error besides, of standard deviation `log_sd` in the parameter's natural
+/// logarithm.
 CoordinateInterval widened(const CoordinateInterval& interval, const ParameterRange& range, double value,
                            double log_sd) {
   if (log_sd <= 0.0) return interval;
@@ -174,8 +183,7 @@ struct Calibration::State {
     return others;
   }
 
-  /// The middle of the ranges, and the start with another interface: what the first batch holds beside
-  /// the start.
+  /// The further initial guesses of the first batch: the middle of the ranges, and the start with another interface.
   std::vector<Point> other_starts(const Point& start) const {
     constexpr double kApart = 1e-3;  // mean square distance below which two starts are one
     Point middle = start, interface = start;
@@ -218,7 +226,7 @@ struct Calibration::State {
       shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
     result.simulations += static_cast<int>(predictions.size());
-    if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
+    if (std::any_of(told.begin(), told.end(), [](const auto& each) { return !each; })) return;
     hand_over();
     ask();
     if (wanted.empty()) conclude();

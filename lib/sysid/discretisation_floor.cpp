@@ -1,8 +1,10 @@
+#include "sysid/discretisation_floor.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/toml_file.hpp"
-#include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
 

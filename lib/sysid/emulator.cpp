@@ -22,7 +22,7 @@ constexpr double kOffsetDeviation = 2.0;   // of a feature's level
 constexpr double kGammaDeviation = 0.15;   // of the sensitivity to log gamma
 constexpr double kPoissonDeviation = 0.2;  // over the whole range of a Poisson's ratio
 
-constexpr double kSmallestNoise = 0.03;  // of a residual, when deviations are told
+constexpr double kSmallestNoise = 0.03;  // of a residual, when deviations are computed
 
 double square(double x) { return x * x; }
 
@@ -175,12 +175,12 @@ void FeatureEmulator::learn_with_prior(const std::vector<FitTrial>& trials, std:
     decltype(prior_at)& prior;
   } posterior{*this, prior_at};
   const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
-    const Posterior& asked = *static_cast<Posterior*>(data);
-    asked.emulator.prior_ = asked.prior(at);
-    asked.emulator.solve();
+    const Posterior& own = *static_cast<Posterior*>(data);
+    own.emulator.prior_ = own.prior(at);
+    own.emulator.solve();
     double sum = 0.0;
     for (const double value : at) sum += 0.5 * square(value / kSpread);
-    return sum - asked.emulator.log_evidence();
+    return sum - own.emulator.log_evidence();
   };
   const EmulatorPrior first;
   std::vector<double> at = {
@@ -295,9 +295,9 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
   std::vector<double> deviations(kEtaCount, kUnknownDeviation);
   if (trials.size() < 2) return deviations;
   const ToughnessModel model = toughness_model(data, trials, best, spans, poisson_searched);
-  const std::vector<double> told = parameter_deviations(model.slopes, model.residuals, model.weights, kSmallestNoise,
-                                                        shared_fracture_errors(data.measured, floor));
-  for (std::size_t k = 0; k < model.searched.size(); ++k) deviations[model.searched[k]] = told[k];
+  const std::vector<double> searched = parameter_deviations(
+      model.slopes, model.residuals, model.weights, kSmallestNoise, shared_fracture_errors(data.measured, floor));
+  for (std::size_t k = 0; k < model.searched.size(); ++k) deviations[model.searched[k]] = searched[k];
   return deviations;
 }
 

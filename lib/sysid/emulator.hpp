@@ -1,16 +1,17 @@
 #pragma once
-// What the toughness tester would say at parameters where it was not run yet, from the runs that there are: two
+// Predictions of the toughness tester at parameters where it was not run yet, from the runs that there are: two
 // features per design, log T and log peak stress, each a Gaussian process over the logarithms of the parameters.
 //
-// The prior mean and the linear part of the covariance carry what dimensions say of a brittle elastic body pulled
-// slowly: scaling all moduli by a and all failure energies by b scales toughness by b, stress by sqrt(a b), strain by
-// sqrt(b / a). How the sums split over the three materials, and everything else, is learnt. All designs share one
-// covariance, so that a refit costs one factorisation whatever their number.
+// The prior mean and the linear part of the covariance follow from dimensional analysis of a brittle elastic body
+// pulled slowly: scaling all moduli by a and all failure energies by b scales toughness by b, stress by sqrt(a b),
+// strain by sqrt(b / a). How the sums split over the three materials, and everything else, is learnt. All designs share
+// one covariance, so that a refit costs one factorisation whatever their number.
 
 #include <Eigen/Dense>
 #include <span>
 #include <vector>
 
+#include "material/ranges.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/features.hpp"
 #include "sysid/fit.hpp"
@@ -24,7 +25,7 @@ std::vector<double> spans_of(std::span<const material::ParameterRange> ranges);
 /// Predicted change of the features of one design.
 using FeatureChange = CurveFeatures;
 
-/// What the prior of the emulator expects, all of natural logarithms.
+/// Standard deviations of the emulator's prior, all of natural logarithms.
 struct EmulatorPrior {
   double split_deviation = 0.3;   ///< of how a sum of sensitivities splits over the materials
   double sum_deviation = 0.1;     ///< of the sum itself: inertia, damping and large strains
@@ -47,7 +48,7 @@ class FeatureEmulator {
   /// Change of the features of all designs between the centre and `point` (in unit coordinates).
   void predict(const Point& point, std::vector<FeatureChange>& changes) const;
   /// The same, but from the centre as it was simulated to `point` as it would be without jumps: at the centre itself
-  /// what the neighbours say of the centre's own jump.
+  /// the centre's own jump, estimated from the neighbours.
   void predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const;
   /// Standard deviation of that change; it does not depend on the design.
   double deviation(const Point& point) const;

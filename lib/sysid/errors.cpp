@@ -1,10 +1,9 @@
+#include "sysid/errors.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
 
 #include "base/statistics.hpp"
-#include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
 namespace {

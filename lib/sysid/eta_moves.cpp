@@ -12,7 +12,7 @@ constexpr double kScaleReach = 3.0;  // radii that the common scales may move
 constexpr int kScaleSteps = 9;       // of the grid over them
 constexpr int kSearchEvaluations = 600;
 
-double asked_by_nlopt(const std::vector<double>& at, std::vector<double>&, void* cost) {
+double cost_for_nlopt(const std::vector<double>& at, std::vector<double>&, void* cost) {
   Move move{};
   std::copy(at.begin(), at.end(), move.begin());
   return (*static_cast<const std::function<double(const Move&)>*>(cost))(move);
@@ -58,8 +58,8 @@ Move best_move(const std::function<double(const Move&)>& cost, double radius) {
   search.set_lower_bounds(bound);
   search.set_initial_step(step);
   search.set_maxeval(kSearchEvaluations);
-  std::function<double(const Move&)> question = cost;
-  search.set_min_objective(asked_by_nlopt, &question);
+  std::function<double(const Move&)> objective = cost;
+  search.set_min_objective(cost_for_nlopt, &objective);
   std::vector<double> at(start.begin(), start.end());
   try {
     double smallest = 0.0;

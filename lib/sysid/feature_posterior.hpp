@@ -1,5 +1,6 @@
 #pragma once
-// How probable parameters are, given the features that they predict.
+// How probable parameters are, given the features that they predict: the posterior density of eta with residuals of
+// log T and log peak stress as Student's t.
 
 #include <span>
 
@@ -14,7 +15,7 @@ namespace nacre::sysid {
 class FeaturePosterior {
  public:
   FeaturePosterior(const FitData& data, Point start, const DiscretisationFloor& floor);
-  /// The trial whose features the changes refer to; designs that failed there say nothing.
+  /// The trial whose features the changes refer to; designs that failed there do not count.
   void set_base(const FitTrial& trial);
   /// -log posterior density, constants left out, where the features of design i change by changes[i].
   double operator()(const Point& point, std::span<const FeatureChange> changes) const;
@@ -29,7 +30,7 @@ class FeaturePosterior {
   /// One over the variance of every residual, log T then log peak, with the factor that the residuals at the base
   /// suggest; 0 where there is none.
   Eigen::VectorXd learnt_precisions() const;
-  /// How far parameters move (rows) to take over a shared error of normal size (columns).
+  /// How far parameters move (rows) to absorb a shared error of normal size (columns).
   Eigen::MatrixXd moves_by_shared_errors(const Eigen::MatrixXd& slopes) const;
 
  private:

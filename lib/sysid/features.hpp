@@ -1,11 +1,14 @@
 #pragma once
-// What a toughness test says in two numbers that vary smoothly with the parameters, and how well each is known.
+// Features of a toughness test, log T and log peak stress, and their variances:
+// scatter^2 / replicates + floor^2.
 
 #include <Eigen/Dense>
 #include <optional>
 #include <vector>
 
-#include "sysid/calibration.hpp"
+#include "measurement/summary.hpp"
+#include "sysid/discretisation_floor.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::sysid {
 
@@ -31,7 +34,7 @@ struct RelativeScatter {
 RelativeScatter pooled_relative_scatter(const std::vector<measurement::Replicates>& measured,
                                         const RelativeScatter& otherwise = {0.01, 0.05});
 
-/// Variance of the mean log E and log T of one design: scatter over its replicates, and what numerics leave.
+/// Variance of the mean log E and log T of one design: scatter over its replicates, and discretisation floor.
 double modulus_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
                         const DiscretisationFloor& floor);
 double toughness_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,

@@ -1,3 +1,5 @@
+#include "sysid/least_squares_fit.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -17,8 +19,8 @@ namespace {
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastGain = 1e-3;  // relative gain in cost below which the fit has converged
 
-/// What the fit of one tester's parameters is made of.
-struct Problem {
+/// The least-squares problem of one tester's parameters.
+struct LeastSquaresProblem {
   std::function<double(const std::vector<Prediction>&)> objective;
   /// Natural logarithms of simulated over measured values; not a number where a simulation failed or nothing was
   /// measured.
@@ -29,12 +31,12 @@ struct Problem {
   double difference = 0.0;            ///< of a coordinate, for slopes
   double pull = 0.0;                  ///< cost of moving every parameter across its whole range
   double small_residual = 0.01;       ///< below it a residual counts quadratically, above by its magnitude
-  double smallest_noise = 0.002;      ///< when deviations are told: no data are better
+  double smallest_noise = 0.002;      ///< when deviations are computed: no data are better
 };
 
 class LeastSquaresFit final : public RecordedFit {
  public:
-  LeastSquaresFit(FitData data, const FitSettings& settings, Problem problem)
+  LeastSquaresFit(FitData data, const FitSettings& settings, LeastSquaresProblem problem)
       : RecordedFit(std::move(data), settings, problem.pull), problem_(std::move(problem)) {}
 
   void tell(std::vector<std::vector<Prediction>> predictions) override {
@@ -101,7 +103,7 @@ class LeastSquaresFit final : public RecordedFit {
     });
   }
 
-  /// 0 where there is no residual: what is missing agrees with nothing.
+  /// 0 where there is no residual.
   Eigen::VectorXd weights(const FitTrial& trial) const {
     const Eigen::VectorXd residuals = problem_.residuals(trial.predictions);
     return residuals.array().isNaN().select(0.0, problem_.weights);
@@ -204,7 +206,7 @@ class LeastSquaresFit final : public RecordedFit {
 
   static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e2;
 
-  Problem problem_;
+  LeastSquaresProblem problem_;
   std::size_t centre_ = 0;
   Eigen::MatrixXd jacobian_;
   Eigen::VectorXd residual_;
@@ -215,14 +217,8 @@ class LeastSquaresFit final : public RecordedFit {
 
 }  // namespace
 
-double pull_to_start(std::span<const double> point, std::span<const double> start, double strength) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < point.size(); ++j) sum += (point[j] - start[j]) * (point[j] - start[j]);
-  return point.empty() ? 0.0 : strength * sum / static_cast<double>(point.size());
-}
-
 std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& settings) {
-  Problem problem;
+  LeastSquaresProblem problem;
   problem.weights =
       Eigen::Map<const Eigen::VectorXd>(data.weights.data(), static_cast<Eigen::Index>(data.weights.size()));
   problem.objective = [data](const std::vector<Prediction>& predictions) {
@@ -240,13 +236,13 @@ std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& 
   problem.shared = shared_modulus_errors(data.measured, settings.floor);
   for (std::size_t j = 0; j < settings.start.size(); ++j) problem.searched.push_back(j);
   problem.difference = 0.02;  // the static tester is smooth
-  problem.pull = 0.002;       // far below what any data with noise say
+  problem.pull = 0.002;       // far below the information of any data with noise
   return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
 }
 
 std::unique_ptr<ParameterFit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
-  Problem problem;
+  LeastSquaresProblem problem;
   problem.weights.resize(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) problem.weights[i] = problem.weights[designs + i] = data.weights[i];
   problem.objective = [data](const std::vector<Prediction>& predictions) {

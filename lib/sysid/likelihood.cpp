@@ -13,7 +13,7 @@ namespace {
 /// Of the designs that have one, one residual at a time.
 class Residuals {
  public:
-  /// `shared`: what errors of normal size that all designs share do to each (designs x errors).
+  /// `shared`: change of each design by shared errors of normal size (designs x errors).
   explicit Residuals(Eigen::MatrixXd shared)
       : shared_(std::move(shared)),
         normal_{Eigen::MatrixXd::Identity(shared_.cols(), shared_.cols()), Eigen::VectorXd::Zero(shared_.cols())} {}
@@ -48,8 +48,8 @@ class Residuals {
     Eigen::VectorXd score;
   };
 
-  /// Woodbury's formula: chi squared and determinant of the whole covariance. Where a fit has taken an error over,
-  /// nothing is left to take off.
+  /// Woodbury's formula: chi squared and determinant of the whole covariance. Where a fit has absorbed an error,
+  /// nothing is left to subtract.
   void take_shared_errors_off() {
     const Eigen::LLT<Eigen::MatrixXd> factor(normal_.information);
     result_.fit.chi_squared -= factor.matrixL().solve(normal_.score).squaredNorm();

@@ -1,8 +1,9 @@
+#include "sysid/local_simulator.hpp"
+
 #include <map>
 #include <mutex>
 
 #include "base/parallel.hpp"
-#include "sysid/offline.hpp"
 #include "sysid/prediction_store.hpp"
 #include "tester/modulus.hpp"
 #include "tester/simulation_key.hpp"
@@ -11,7 +12,7 @@
 namespace nacre::sysid {
 namespace {
 
-/// One simulation, and the key that its answer is kept under.
+/// One simulation, and the key that its prediction is kept under.
 struct Task {
   tester::TestKind kind = tester::TestKind::modulus;
   tester::Simulation simulation;
@@ -58,8 +59,8 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
   std::vector<Task> tasks;
   const auto for_each_test = [&](const WantedEvaluation& evaluation, std::size_t item, auto&& body) {
     for (const tester::TestKind kind : {tester::TestKind::modulus, tester::TestKind::toughness}) {
-      const bool asked = kind == tester::TestKind::modulus ? evaluation.modulus : evaluation.toughness;
-      if (asked) body(state_->task_of(measured[item], evaluation.parameters, kind));
+      const bool wanted = kind == tester::TestKind::modulus ? evaluation.modulus : evaluation.toughness;
+      if (wanted) body(state_->task_of(measured[item], evaluation.parameters, kind));
     }
   };
   std::map<std::string, bool> listed;
@@ -76,9 +77,9 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
       static_cast<int>(tasks.size()),
       [&](int index) {
         const std::size_t k = static_cast<std::size_t>(index);
-        const Prediction answer = run(tasks[k]);
+        const Prediction prediction = run(tasks[k]);
         const std::lock_guard lock(one_at_a_time);
-        state_->known.put(tasks[k].key, answer);
+        state_->known.put(tasks[k].key, prediction);
         if (done) done();
       },
       state_->threads);

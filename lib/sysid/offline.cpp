@@ -8,7 +8,9 @@
 
 #include "base/random.hpp"
 #include "measurement/conditions.hpp"
+#include "sysid/base_calibration.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/weights.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -110,7 +112,7 @@ Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, cons
   second.start = begun.parameters;
   second.other_starts = begun.ensemble;
   Calibrated result = run_calibration(measured, second, simulator, progress);
-  // What it was before is what the start given was, not where the second calibration began.
+  // The errors before are those of the start that was given, not of where the second calibration began.
   const std::vector<Prediction> before = predict({settings.start}, measured, simulator).front();
   const std::vector<double> weights = settings.weights.empty() ? sample_weights(measured) : settings.weights;
   result.before = prediction_errors(measured, before);
@@ -132,18 +134,18 @@ std::vector<std::vector<Prediction>> predict(const std::vector<material::Paramet
     wanted.push_back(std::move(modulus));
     wanted.push_back(std::move(toughness));
   }
-  const auto answers = simulator.simulate(measured, wanted, done);
+  const auto simulated = simulator.simulate(measured, wanted, done);
   std::vector<std::vector<Prediction>> result;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     auto& predictions = result.emplace_back(measured.size());
     const auto& extensions = parameters[k].extensions;
     for (std::size_t i = 0; i < wanted[2 * k].items.size(); ++i) {
       const std::size_t item = wanted[2 * k].items[i];
-      predictions[item].modulus_pa = observed(answers[2 * k][i], extensions, measured[item]).modulus_pa;
+      predictions[item].modulus_pa = observed(simulated[2 * k][i], extensions, measured[item]).modulus_pa;
     }
     for (std::size_t i = 0; i < wanted[2 * k + 1].items.size(); ++i) {
       const std::size_t item = wanted[2 * k + 1].items[i];
-      Prediction shown = observed(answers[2 * k + 1][i], extensions, measured[item]);
+      Prediction shown = observed(simulated[2 * k + 1][i], extensions, measured[item]);
       Prediction& prediction = predictions[item];
       prediction.toughness_pa = shown.toughness_pa;
       prediction.curve = std::move(shown.curve);

@@ -1,7 +1,6 @@
 #pragma once
 // Calibration in this process, on all cores: what `nacre calibrate` does.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "measurement/read_set.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::sysid {
 
@@ -32,49 +32,30 @@ struct OfflineCalibration {
   PredictionErrors after_fitted, after_held_out;
   PredictionErrors ensemble_held_out;         ///< of the mean over `parameters` and the ensemble, when there is one
   std::vector<std::string> fitted, held_out;  ///< names of designs
-  std::vector<std::string> left_out;          ///< homogeneous specimens beside patterns, mixtures beside base materials
+  std::vector<std::string> left_out;  ///< homogeneous specimens where there are patterns, other mixtures where there
+                                      ///< are base materials
   std::vector<measurement::Replicates> measured;  ///< what was fitted, as Calibrated::predictions orders it
   int simulations = 0;                            ///< really done, held-out ones included
   int begun_simulations = 0;                      ///< of OfflineSettings::begin_at
 };
 
-/// Called after every simulation with the share done (0..1) and what is being done.
+/// Called after every simulation with the share done (0..1) and the present step.
 using ProgressCallback = std::function<void(double, std::string_view)>;
-
-/// Simulates every measured design of an evaluation under its conditions; equal questions are answered once. Failed
-/// simulations give predictions without value.
-class LocalSimulator {
- public:
-  /// `store`: a file of answers that are not simulated again (PredictionStore); empty: remembered while this object
-  /// lives.
-  LocalSimulator(tester::Fidelity fidelity, int threads, const std::filesystem::path& store = {});
-  ~LocalSimulator();
-  /// One prediction per item of each evaluation. `done` is called after each simulation (from any thread, one at a
-  /// time).
-  std::vector<std::vector<Prediction>> simulate(const std::vector<measurement::Replicates>& measured,
-                                                const std::vector<WantedEvaluation>& evaluations,
-                                                const std::function<void()>& done = {});
-  int simulations() const;  ///< not answered from memory
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// Runs a calibration of designs (FitTarget::microstructures) or of base materials one by one (FitTarget::base) to its
 /// end.
 Calibrated run_calibration(const std::vector<measurement::Replicates>& measured, const CalibrationSettings& settings,
                            LocalSimulator& simulator, const ProgressCallback& progress = {});
 
-/// Calibrates on smaller specimens (`cheaper`, with the numerics floor of its fidelity), and begins the real
-/// calibration where that one ended: at its parameters and at draws of what it left possible. Small specimens find the
-/// region at a tenth of the cost; the larger ones then only correct what depends on size.
+/// Calibrates on smaller specimens (`cheaper`, with the discretisation floor of its fidelity), and takes the result as
+/// initial guesses of the real calibration: its parameters, and draws of what it left possible. Small specimens find
+/// the region at a tenth of the cost; the larger ones then only correct what depends on size.
 Calibrated calibrate_cheaply_first(const std::vector<measurement::Replicates>& measured,
                                    const CalibrationSettings& settings, LocalSimulator& cheaper,
                                    const DiscretisationFloor& cheaper_floor, LocalSimulator& simulator,
                                    const ProgressCallback& progress = {});
 
-/// What the testers say of every measured design (the tests that were measured), one vector per parameter set,
+/// Simulated values of every measured design (of the tests that were measured), one vector per parameter set,
 /// measurement-side extensions applied.
 std::vector<std::vector<Prediction>> predict(const std::vector<material::ParameterSet>& parameters,
                                              const std::vector<measurement::Replicates>& measured,

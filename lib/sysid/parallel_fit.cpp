@@ -1,7 +1,7 @@
+#include "sysid/parallel_fit.hpp"
+
 #include <algorithm>
 #include <cassert>
-
-#include "sysid/fit.hpp"
 
 namespace nacre::sysid {
 namespace {

@@ -1,3 +1,5 @@
+#include "sysid/posterior_fit.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -24,7 +26,7 @@ constexpr double kLeastGain = 0.5;       // in -log posterior
 constexpr int kIdleBatches = 4;  // in a row within the smallest radius without that gain: nothing more is to be found
 
 /// Parameters that decide how a load is shared between the materials. Level and shape of all curves follow from the
-/// common scales of moduli and failure energies; what these leave has valleys longer than a trust region's way.
+/// common scales of moduli and failure energies; the rest has valleys longer than a trust region's way.
 constexpr std::array<std::size_t, 5> kSplits = {kE0, kE0 + 2, kW0, kW0 + 2, kGamma};
 constexpr int kMostSpread = 9;  // points spread over the splits before the search narrows
 
@@ -97,7 +99,7 @@ class PosteriorFit final : public RecordedFit {
       while (static_cast<int>(points.size()) < count) points.push_back(spread_point());
       return points;
     }
-    // A point that was simulated already would give the same answer again, and count twice.
+    // A point that was simulated already would give the same prediction again, and count twice.
     const Point likeliest = most_probable();
     if (is_new(likeliest)) points.push_back(likeliest);
     const RandomStream random(settings_.seed, "sysid/batch" + std::to_string(trials_.size()));
@@ -114,7 +116,7 @@ class PosteriorFit final : public RecordedFit {
   }
 
   /// The next point of Sobol's sequence over the splits, moduli and failure energies scaled together to where the
-  /// emulator expects the measured curves.
+  /// emulator predicts the measured curves.
   Point spread_point() {
     Point point = settings_.start;
     const Point split = splits_.next();
@@ -179,7 +181,7 @@ class PosteriorFit final : public RecordedFit {
   }
 
   /// Draws from what the data leave possible by the emulator, its own uncertainty included: searched coordinates, then
-  /// sizes of the errors that all designs share, when they take part.
+  /// sizes of the errors that all designs share, when they are included.
   std::vector<Eigen::VectorXd> possible(Eigen::Index shared_errors) const {
     constexpr int kBurnIn = 100, kSteps = 60;  // from walkers that are nearly right
     const auto searched = static_cast<Eigen::Index>(kSearchedEta.size());
@@ -195,7 +197,7 @@ class PosteriorFit final : public RecordedFit {
                                      RandomStream(settings_.seed, "sysid/sampler"));
   }
 
-  /// From the normal distribution that slopes at the best trial suggest, shared errors taken over by the parameters.
+  /// From the normal distribution that slopes at the best trial suggest, shared errors absorbed by the parameters.
   std::vector<Eigen::VectorXd> first_walkers(Eigen::Index shared_errors) const {
     constexpr int kWalkers = 32;
     const auto searched = static_cast<Eigen::Index>(kSearchedEta.size());

@@ -52,11 +52,12 @@ std::vector<double> floats_at(const char* bytes, std::size_t count) {
 
 PredictionStore::PredictionStore(const std::filesystem::path& file) {
   const bool exists = std::filesystem::exists(file);
-  const bool begun = exists && read(file);
+  const bool is_store = exists && read(file);
   if (!exists && file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   file_.emplace(file, std::ios::binary | std::ios::app);
-  if (!begun) file_->write(kMagic.data(), static_cast<std::streamsize>(kMagic.size())).flush();
-  if (!*file_) throw InputError::format("{}: cannot be written", file.string());
+  if (!is_store) file_->write(kMagic.data(), static_cast<std::streamsize>(kMagic.size())).flush();
+  if (!*file_)
+    throw InputError::format("{}: the store of predictions cannot be written; is the folder writable?", file.string());
 }
 
 bool PredictionStore::read(const std::filesystem::path& file) {
@@ -66,7 +67,9 @@ bool PredictionStore::read(const std::filesystem::path& file) {
     return false;
   }
   if (!bytes.starts_with(kMagic))
-    throw InputError::format("{}: no file of predictions, expected it to begin \"nacre predictions 1\"", file.string());
+    throw InputError::format(
+        "{}: is no store of predictions, expected \"nacre predictions 1\" in its first line; name another file",
+        file.string());
   std::size_t at = kMagic.size();
   while (at + sizeof(Head) <= bytes.size()) {
     Head head;
@@ -101,7 +104,7 @@ const Prediction& PredictionStore::put(const std::string& key, const Prediction&
     append_floats(bytes, kept.curve.strain);
     append_floats(bytes, kept.curve.stress_pa);
     if (!file_->write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
-      throw InputError("the file of predictions cannot be written; is the disk full?");
+      throw InputError("the store of predictions cannot be written; is the disk full?");
   }
   return kept;
 }

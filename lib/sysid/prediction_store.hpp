@@ -1,4 +1,6 @@
 #pragma once
+// A file of simulated predictions: "nacre predictions 1\n", then records (key length, points, E, T; key; strains;
+// stresses).
 
 #include <filesystem>
 #include <fstream>
@@ -6,13 +8,13 @@
 #include <optional>
 #include <string>
 
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::sysid {
 
-/// Answers of testers by key, in memory and, when a file is given, on disk: what was simulated is not simulated again,
-/// not even after an interruption. The file is only ever appended to; a record that was cut off by a crash is dropped
-/// when the file is read. Curves are kept as 128 points in single precision, and an answer is the same whether it comes
+/// Predictions of the testers by key, in memory and, when a file is given, on disk: no simulation is done twice, not
+/// even after an interruption. The file is only ever appended to; a record that was cut off by a crash is dropped when
+/// the file is read. Curves are kept as 128 points in single precision, and a prediction is the same whether it comes
 /// from the file or was just put in.
 class PredictionStore {
  public:

@@ -1,4 +1,5 @@
 #pragma once
+// A root of log f(x) - log target by bracketing on logarithms.
 
 #include <optional>
 #include <vector>
@@ -6,7 +7,7 @@
 namespace nacre::sysid {
 
 /// Finds x in [lower, upper] where a positive function f meets a target, by ask and tell: the search is told the ratio
-/// f(x) / target, and looks for the x at which it is one. It works on logarithms, expects f to grow about in proportion
+/// f(x) / target, and seeks the x at which it is one. It works on logarithms, expects f to grow about in proportion
 /// to x at first, and then trusts the bracket; f may jump.
 class RatioSearch {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// What every fit keeps: what it was asked to fit, all trials, the best of them by objective plus pull to the start.
+// The record of a fit: its data, all trials, and the best of them by objective plus pull to the start.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sysid/fit.hpp"
+#include "sysid/objective.hpp"
 #include "sysid/spread.hpp"
 
 namespace nacre::sysid {
@@ -42,14 +43,14 @@ class RecordedFit : public ParameterFit {
   RecordedFit(FitData data, const FitSettings& settings, double pull)
       : data_(std::move(data)), settings_(settings), pull_(pull) {}
 
-  /// Standard deviation of every coordinate of best().point as far as the data tell it (spread.hpp); kUnknownDeviation
-  /// where they do not, or were not asked.
+  /// Standard deviation of every coordinate of best().point as far as the data determine it (spread.hpp);
+  /// kUnknownDeviation where they do not, or were not asked.
   virtual std::vector<double> deviations() const {
     return std::vector<double>(settings_.start.size(), kUnknownDeviation);
   }
 
   /// freedom_taken() from E or T by a linear model at best().point whose `jacobian` has a column for each of
-  /// `coordinates`: one that stands at an end of its range no longer follows the data.
+  /// `coordinates`: one that is at its bound no longer follows the data.
   double freedom_taken_by(std::span<const std::size_t> coordinates, Eigen::MatrixXd jacobian,
                           const Eigen::VectorXd& weights, double prior_precision) const {
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
@@ -59,7 +60,7 @@ class RecordedFit : public ParameterFit {
     return sysid::freedom_taken(jacobian, weights, prior_precision, static_cast<Eigen::Index>(data_.measured.size()));
   }
 
-  /// The part of the cost that no simulation tells.
+  /// The part of the cost that needs no simulation.
   double pull_on(const Point& point) const { return pull_to_start(point, settings_.start, pull_); }
   double cost(const FitTrial& trial) const { return trial.objective + pull_on(trial.point); }
 
@@ -80,7 +81,7 @@ class RecordedFit : public ParameterFit {
   FitData data_;
   FitSettings settings_;
   std::vector<FitTrial> trials_;
-  std::vector<Point> asked_;  ///< points asked for and not answered yet
+  std::vector<Point> asked_;  ///< points asked for and not told yet
   std::size_t best_ = 0;
   bool finished_ = false;
 

@@ -1,11 +1,12 @@
 #pragma once
-// What the numerics floor has in common over designs: parameters take such an error over where they can, so that
-// residuals do not show it and no number of designs averages it away.
+// The part of the discretisation floor that designs have in common: parameters absorb such an error where they can, so
+// that residuals do not show it and no number of designs averages it away.
 
 #include <Eigen/Dense>
 #include <vector>
 
-#include "sysid/calibration.hpp"
+#include "measurement/summary.hpp"
+#include "sysid/discretisation_floor.hpp"
 
 namespace nacre::sysid {
 

@@ -1,4 +1,5 @@
 #pragma once
+// Uncertainty of a weighted least-squares fit over the unit cube: covariance (J' W J / s^2 + 12 I)^-1.
 
 #include <Eigen/Dense>
 #include <span>
@@ -17,8 +18,8 @@ double noise_variance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& re
                       double smallest_residual);
 
 /// Standard deviations of the parameters (unit cube) at a least-squares solution: (J' W J / s^2 + 12 I)^-1, where the
-/// second term is what the ranges say and s^2 is noise_variance().
-/// Each column of `systematic` is an error that all residuals share, of normal size 1: parameters take it over, so that
+/// second term is the information of the ranges and s^2 is noise_variance().
+/// Each column of `systematic` is an error that all residuals share, of normal size 1: parameters absorb it, so that
 /// the residuals do not show it and many designs do not average it away.
 std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                          const Eigen::VectorXd& weights, double smallest_residual,
@@ -26,7 +27,7 @@ std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const 
 
 /// Degrees of freedom that a fit takes from its first `rows` residuals: the trace over them of its hat matrix
 /// H = J (J' W J + p I)^-1 J' W, where p is the precision of its prior, or the strength of its pull to the start. A
-/// parameter that those tell better than the data do, or that acts like others, takes less than one.
+/// parameter that those determine better than the data do, or that is collinear with others, takes less than one.
 double freedom_taken(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& weights, double prior_precision,
                      Eigen::Index rows);
 

@@ -1,11 +1,10 @@
-// Sample weights of system identification (thesis Eqs. 2.9-2.11, Figures 2-7 and 2-8).
+#include "sysid/weights.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "optimize/pareto.hpp"
-#include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -35,7 +34,7 @@ double distance_to_segment(UnitPoint p, UnitPoint a, UnitPoint b) {
 }
 
 /// The piecewise-linear front, closed by a horizontal line to the toughness axis and a vertical one to the modulus axis
-/// (as the polygon hypervolume is), so that a sample beside its ends is as near as one between its corners.
+/// (as the polygon hypervolume is), so that a sample next to its ends is as near as one between its corners.
 std::vector<UnitPoint> closed_front(std::span<const UnitPoint> points) {
   std::vector<optimize::Performance> performances;
   for (const UnitPoint& point : points) performances.push_back({point.modulus, point.toughness});

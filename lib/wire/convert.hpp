@@ -15,7 +15,8 @@
 #include "game/family_errors.hpp"
 #include "material/parameters.hpp"
 #include "pattern/design.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/provenance.hpp"
 #include "tester/loading.hpp"
 #include "wire/codec.hpp"
 

@@ -10,7 +10,7 @@
 #include "analyser/works.hpp"
 #include "base/counted.hpp"
 #include "base/hash.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/modulus_floor.hpp"
 #include "game/model.hpp"
 #include "game/starting_point.hpp"
 #include "wire/channels.hpp"

@@ -1,7 +1,7 @@
 #include "analyser/diagnosis_work.hpp"
 
 #include "base/expected.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "material/extensions.hpp"
 #include "runtime/journal.hpp"
 

@@ -1,4 +1,5 @@
-// nacre approve: a person's yes or no to proposed designs, and designs of their own.
+// Part of the command line (command.hpp): nacre approve, a person's yes or no to proposed designs, and designs of their
+// own.
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 
 #include "base/result.hpp"
 #include "command.hpp"
+#include "design_words.hpp"
 #include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
 #include "output.hpp"
@@ -51,7 +53,7 @@ std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
   return proposal;
 }
 
-/// What the validation agent wants decided now.
+/// The designs that the validation agent wants approved or rejected now.
 std::optional<wire::Proposal> open_proposal(const RunAccess& run, const LaboratoryView& laboratory) {
   const std::optional<wire::Proposal> variants = variants_to_approve(run);
   return variants ? variants : laboratory.open_proposal;
@@ -67,18 +69,17 @@ std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const 
     if (std::find(proposed.begin(), proposed.end(), design) == proposed.end()) {
       std::vector<std::string> names;
       for (const pattern::Design& each : proposed) names.push_back(each.name());
-      throw InputError::format("{}: not among the designs of proposal {}: expected one of {}", argument, proposal.round,
-                               fmt::join(names, ", "));
+      throw InputError::format("{}: not among the designs proposed in round {}: expected one of {}", argument,
+                               proposal.round, fmt::join(names, ", "));
     }
     meant.push_back(design);
   }
   return meant;
 }
 
-/// The word for a decision.
 std::string_view word(bool approved) { return approved ? "approved" : "rejected"; }
 
-/// Whether the validation agent has it now; its answer says no more than that.
+/// Whether the validation agent has acknowledged it.
 bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedApproval& decision) {
   approval_t message{};
   message.round = decision.proposal_round;
@@ -112,11 +113,11 @@ std::optional<int> round_played(const RunAccess& run) {
 int say_when_measured(const RunAccess& run, const pattern::Design& design) {
   const auto played = round_played(run);
   if (game::are_both_ordered(view_laboratory(run).facts.orders, design)) {
-    fmt::print("{} added\n", design.name());
+    fmt::print("{} added: ordered now\n", design.name());
   } else if (played && (*played < run.scenario.rounds || run.scenario.families.enabled)) {
-    fmt::print("{} added, for the next round\n", design.name());
+    fmt::print("{} added: to be ordered in the next round\n", design.name());
   } else {
-    remark(fmt::format("{} is not measured: the last round is measured already, none follows", design.name()));
+    remark(fmt::format("{} will not be measured: the last round is measured already, and none follows", design.name()));
     return 1;
   }
   return 0;
@@ -130,7 +131,7 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
   if (!round_played(run)) {
-    remark("the game is over: nothing more is measured");
+    remark("the game is over: nothing more will be measured");
     return 1;
   }
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
@@ -166,16 +167,19 @@ int decide(const ApproveOptions& options, const RunAccess& run, const game::Labo
   return status;
 }
 
-/// The designs, each with its state: what was decided needs no second yes.
-void list_designs(const game::LaboratoryFacts& facts, const wire::Proposal& proposal) {
-  const std::map<std::string, game::DesignStage> stages = stages_in(facts);
-  fmt::print("proposal {}:\n", proposal.round);
+/// The designs, each with its state, and how many wait for a person.
+void list_designs(const LaboratoryView& laboratory, const wire::Proposal& proposal, bool waits_for_approval) {
+  const std::map<std::string, game::DesignStage> stages = stages_in(laboratory.facts);
+  fmt::print("proposed in round {}, with predicted E and T:\n", proposal.round);
+  int waiting = 0;
   for (const auto& design : proposal.designs) {
     const auto known = stages.find(design.design.name());
     const auto stage = known == stages.end() ? game::DesignStage::pending : known->second;
-    fmt::print("{}  {:9} E {} GPa  T {} MPa  {}\n", design.design.name(), game::to_string(stage),
+    if (stage == game::DesignStage::pending) ++waiting;
+    fmt::print("{}  {:18}  E {} GPa  T {} MPa  {}\n", design.design.name(), stage_in_words(stage, waits_for_approval),
                shown(1e-9 * design.modulus_pa), shown(1e-6 * design.toughness_pa), design.reason);
   }
+  if (waits_for_approval && waiting > 0) fmt::print("{}\n", waiting_in_words(waiting));
 }
 
 /// Throws InputError where it is not clear which designs are meant.
@@ -194,11 +198,11 @@ int approve(const ApproveOptions& options) {
   const LaboratoryView laboratory = view_laboratory(run);
   const auto proposal = open_proposal(run, laboratory);
   if (!proposal) {
-    remark("there is no proposal yet");
+    remark("nothing is proposed yet");
     return 1;
   }
   if (options.designs.empty() && !options.all) {
-    list_designs(laboratory.facts, *proposal);
+    list_designs(laboratory, *proposal, waits_for_approval(run, laboratory));
     return 0;
   }
   return decide(options, run, laboratory.facts, *proposal);
@@ -209,15 +213,16 @@ int approve(const ApproveOptions& options) {
 void add_approve(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApproveOptions>();
   CLI::App& command = add_command(app, action, "approve",
-                                  "Say yes or no to proposed designs; without designs: list them", options, approve);
-  command.add_option("DESIGN", options->designs, std::string("Proposed design; with --add any. ") + kDesignWords);
+                                  "Approve or reject proposed designs; without designs: list them", options, approve);
+  command.add_option("DESIGN", options->designs,
+                     std::string("Proposed design; with --add any design. ") + kDesignWords);
   add_run_option(command, options->run);
-  command.add_flag("--all", options->all, "All designs of the newest proposal");
-  command.add_flag("--add", options->add, "Have designs measured that nobody proposed");
-  command.add_flag("--reject", options->reject, "Say no");
-  command.add_option("--why", options->why, "Reason, kept with the run");
+  command.add_flag("--all", options->all, "All designs that were proposed last");
+  command.add_flag("--add", options->add, "Add designs of your own, to be measured with the others");
+  command.add_flag("--reject", options->reject, "Reject them");
+  command.add_option("--why", options->why, "Reason; it is kept with the run");
   command.add_option("--by", options->by, "Who decides")->capture_default_str();
-  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+  command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
 }

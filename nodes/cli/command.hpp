@@ -1,5 +1,6 @@
 #pragma once
 // A subcommand of nacre: it describes its options to CLI11 and, when it was the one typed, leaves what is to be done.
+// Each stands in a file of its own, COMMAND.cpp.
 
 #include <functional>
 #include <memory>
@@ -40,20 +41,22 @@ CLI::Option* add_seed(CLI::App& command, Seed& seed, const std::string& words) {
 
 /// `--fidelity` with what the three are; `otherwise`, when it has no default of its own, tells what is taken then.
 inline CLI::Option* add_fidelity(CLI::App& command, std::string& fidelity, const std::string& otherwise = "") {
-  return command.add_option(
-      "--fidelity", fidelity,
-      "Specimens: full (thesis), preview (the same pulled twice as fast) or tiny (one unit, its numbers mean nothing)" +
-          otherwise);
+  return command.add_option("--fidelity", fidelity,
+                            "How specimens are simulated: full (as in the thesis), preview (the same pulled twice as "
+                            "fast) or tiny (one unit, "
+                            "for tests of the program; its numbers mean nothing)" +
+                                otherwise);
 }
 
 /// What may stand for a design on the command line (docs/FORMATS.md).
 inline constexpr const char* kDesignWords =
-    "Pattern file, key, soft, interface, rigid, mix:F, checkerboard:P, laminate:x|y:R:S";
+    "A pattern file, a key of 14 hex digits, soft, interface, rigid, mix:F, checkerboard:P or laminate:x|y:R:S";
 
 /// `--ranges`, where something is fitted.
 inline CLI::Option* add_ranges(CLI::App& command, std::string& file, const std::string& otherwise = "the thesis'") {
-  return command.add_option("--ranges", file,
-                            "Ranges of the parameters, for other inks (docs/FORMATS.md); default: " + otherwise);
+  return command.add_option(
+      "--ranges", file,
+      "File with the ranges of the parameters, for other inks (docs/FORMATS.md); default: " + otherwise);
 }
 
 void add_simulate(CLI::App& app, Action& action);

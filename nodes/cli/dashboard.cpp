@@ -1,4 +1,4 @@
-// nacre dashboard: a run as a live page in the browser.
+// Part of the command line (command.hpp): nacre dashboard, a run as a live page in the browser.
 
 #include "dashboard/dashboard.hpp"
 
@@ -28,7 +28,7 @@ struct Options {
   std::vector<std::string> allowed_hosts;
 };
 
-/// Only this machine reaches such an address.
+/// Whether only this machine reaches the address.
 bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
 
 /// The page as built beside the program: build/web.
@@ -56,7 +56,7 @@ int show_dashboard(const Options& options) {
   const auto ready = [&](int port) {
     fmt::print("{}\n", dashboard::page_link(options.host, port, server.token));
     std::fflush(stdout);
-    remark(fmt::format("{} is shown there; Ctrl-C ends the page, not the game", run.manifest.run_id));
+    remark(fmt::format("shows {}; Ctrl-C ends the page, not the game", run.manifest.run_id));
   };
   dashboard::serve(page, server, ready, [&] { return interrupts.any(); });
   return 0;
@@ -67,15 +67,16 @@ int show_dashboard(const Options& options) {
 void add_dashboard(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command =
-      add_command(app, action, "dashboard", "Show a run, playing or finished, as a live page in the browser", options,
-                  show_dashboard);
+      add_command(app, action, "dashboard", "Show a run in the browser, live or afterwards", options, show_dashboard);
   command.add_option("RUN,--run", options->run, "Folder of the run")->capture_default_str();
   command.add_option("--port", options->port, "Port of the page; 0: any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command.add_option("--host", options->host, "Address to listen to; another than this machine's own asks for a token")
+  command.add_option("--host", options->host, "Address to listen on; one that other machines reach asks for a token")
       ->capture_default_str();
-  command.add_option("--token", options->token, "Ask for this token; default for other hosts: a random one, printed")
+  command
+      .add_option("--token", options->token,
+                  "Token that a browser must bring; default for other hosts: a random one, printed")
       ->check([](const std::string& token) {
         const bool plain = token.size() >= 16 && is_plain_name(token, 256);
         return plain ? std::string() : std::string("expected 16 to 256 letters, digits, - and _");
@@ -83,7 +84,7 @@ void add_dashboard(CLI::App& app, Action& action) {
   command.add_option("--allow-host", options->allowed_hosts,
                      "Name under which a tunnel or a proxy shows the page, NAME or NAME:PORT; may be repeated");
   command.add_option("--families", options->families,
-                     "Folder of `nacre families` for the explorer; default: RUN/families");
+                     "Folder of `nacre families` for the map explorer; default: RUN/families");
   command.add_option("--page", options->page, "Folder of the built page; default: build/web");
   command.footer(
       "Example: nacre dashboard logs/latest\n  prints http://127.0.0.1:8765/ - open it. Elsewhere on the network: "

@@ -1,10 +1,13 @@
-// nacre designs: how far each design of a run has got. nacre printed: a print job has left the printer.
+// Part of the command line (command.hpp): nacre designs, how far each design of a run has got, and nacre printed,
+// a print job has left the printer.
 
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "design_words.hpp"
 #include "laboratory_view.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
@@ -17,18 +20,33 @@ struct DesignsOptions {
   bool json = false;
 };
 
-int show_designs(const DesignsOptions& options) {
-  const auto states = game::design_states(view_laboratory(open_run(options.run)).facts);
-  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+/// A line for each design, its specimens counted; then what waits for a person.
+void print_designs(const std::vector<game::DesignState>& states, bool waits_for_approval) {
+  constexpr const char* kLine = "{:16}  {:18}  {:>7}  {:>7}  {:>8}  {:>5}  {:10}{}\n";
+  if (!states.empty())
+    fmt::print(kLine, "design", "state", "ordered", "printed", "measured", "valid", "proposed", "  decided by");
+  int waiting = 0;
   for (const game::DesignState& state : states) {
-    document.push_back(game::to_json(state));
-    if (options.json) continue;
-    fmt::print("{:16} {:9} {:>3} ordered {:>3} printed {:>3} measured {:>3} valid{}{}\n", state.design.name(),
-               game::to_string(state.stage), state.ordered, state.printed, state.arrived, state.valid,
-               state.round < 0 ? "" : fmt::format("  proposal {}", state.round),
+    if (state.stage == game::DesignStage::pending) ++waiting;
+    fmt::print(kLine, state.design.name(), stage_in_words(state.stage, waits_for_approval), state.ordered,
+               state.printed, state.arrived, state.valid,
+               state.round < 0 ? "" : fmt::format("in round {}", state.round),
                state.decided_by.empty() ? "" : fmt::format("  {}: {}", state.decided_by, state.why));
   }
-  if (options.json) print_json(document);
+  if (waits_for_approval && waiting > 0) fmt::print("{}\n", waiting_in_words(waiting));
+}
+
+int show_designs(const DesignsOptions& options) {
+  const RunAccess run = open_run(options.run);
+  const LaboratoryView view = view_laboratory(run);
+  const auto states = game::design_states(view.facts);
+  if (options.json) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::array();
+    for (const game::DesignState& state : states) document.push_back(game::to_json(state));
+    print_json(document);
+  } else {
+    print_designs(states, waits_for_approval(run, view));
+  }
   if (states.empty()) remark("there is no design yet");
   return states.empty() ? 1 : 0;
 }
@@ -43,7 +61,8 @@ int mark_printed(const PrintedOptions& options) {
   const RunAccess run = open_run(options.run);
   const auto specimens = specimens_of_build_sheet(std::filesystem::path(options.job) / "build_sheet.json");
   const int added = record_printed(run, specimens, options.by);
-  fmt::print("{} specimens printed, {} known already\n", added, specimens.size() - static_cast<std::size_t>(added));
+  fmt::print("{} printed, {} known already\n", counted(added, "specimen"),
+             specimens.size() - static_cast<std::size_t>(added));
   return 0;
 }
 
@@ -51,18 +70,18 @@ int mark_printed(const PrintedOptions& options) {
 
 void add_designs(CLI::App& app, Action& action) {
   const auto options = std::make_shared<DesignsOptions>();
-  CLI::App& command =
-      add_command(app, action, "designs", "Show which designs of a run are pending, approved, printed, measured",
-                  options, show_designs);
+  CLI::App& command = add_command(app, action, "designs",
+                                  "Show how far each design of a run has got: proposed, approved, printed, measured",
+                                  options, show_designs);
   add_run_option(command, options->run);
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 
 void add_printed(CLI::App& app, Action& action) {
   const auto options = std::make_shared<PrintedOptions>();
-  CLI::App& command =
-      add_command(app, action, "printed", "Say that a job of nacre fabricate has been printed", options, mark_printed);
-  command.add_option("JOB", options->job, "Folder of the job")->required();
+  CLI::App& command = add_command(app, action, "printed", "Tell the run that a job of nacre fabricate has been printed",
+                                  options, mark_printed);
+  command.add_option("JOB", options->job, "Folder of the print job")->required();
   add_run_option(command, options->run);
   command.add_option("--by", options->by, "Who printed it")->capture_default_str();
 }

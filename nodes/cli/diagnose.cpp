@@ -1,13 +1,15 @@
-// nacre diagnose: what the simulation gets wrong, and why.
+// Part of the command line (command.hpp): nacre diagnose, what the simulation gets wrong, and why.
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 
+#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "command.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/included_specimens.hpp"
+#include "diagnosis/json.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
 #include "material/effect_words.hpp"
@@ -17,6 +19,7 @@
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "report/diagnosis_page.hpp"
+#include "report/report_diagnosis.hpp"
 #include "shipped_files.hpp"
 #include "specimen_doubts.hpp"
 
@@ -47,20 +50,30 @@ std::string conditions_in_words(const tester::TestConditions& c) {
 
 std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
 
+/// One line per candidate effect under headings; the page of --report explains each column.
 void print_candidates(const diagnosis::Diagnosis& d) {
+  if (d.candidates.empty()) return;
+  constexpr const char* kHeadings = "  {:<34} {:<26} {:>18} {:>7} {:>9} {:>6}  {}\n";
+  fmt::print(kHeadings, "candidate effect", "status", "improvement of fit", "chance", "imitated", "SNR",
+             "visible from");
+  fmt::print(kHeadings, "", "", "(chi squared)", "", "by base", "", "");
   for (const diagnosis::CandidateEffect& c : d.candidates) {
     const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
-    fmt::print("  {:<22} {:<14} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:6.1f}  seen from {}{}\n", c.name,
-               c.status, c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
+    fmt::print("  {:<34} {:<26} {:>18.1f} {:>7.4f} {:>7.0f} % {:>6.1f}  {}{}\n", material::effect_in_words(c.name),
+               report::status_in_words(c.status), c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
                size_or_dash(c.smallest_seen), c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
+}
+
+/// What the residuals follow, and which tests would tell more.
+void print_trends_and_next_tests(const diagnosis::Diagnosis& d) {
   for (std::size_t i = 0; i < d.contrasts.size() && i < 3; ++i) {
-    fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name,
+    fmt::print("  the residuals follow {} by {:.1f} standard deviations (chance {:.4f})\n", d.contrasts[i].name,
                d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    fmt::print("  next: {} of {}{}, {} specimens: {}\n", tester::to_string(e.test), pattern::readable_name(e.design),
-               conditions_in_words(e.conditions), e.replicates, e.reason);
+    fmt::print("  next test: {} of {}{}, {}: {}\n", tester::to_string(e.test), pattern::readable_name(e.design),
+               conditions_in_words(e.conditions), counted(e.replicates, "specimen"), e.reason);
   }
 }
 
@@ -73,8 +86,8 @@ int diagnose_table(const Options& options) {
     document.push_back(
         {{"column", t.column}, {"spearman", t.spearman}, {"p_family_wise", t.p_family_wise}, {"rows", t.rows}});
     if (!options.json)
-      fmt::print("{:<32} rank correlation {:+.3f}  p {:.4f}  ({} rows)\n", t.column, t.spearman, t.p_family_wise,
-                 t.rows);
+      fmt::print("{:<32} rank correlation with the error {:+.3f}, chance {:.4f} ({})\n", t.column, t.spearman,
+                 t.p_family_wise, counted(t.rows, "row"));
   }
   if (options.json) print_json({{"trends", document}, {"rejected", rejected_json(rejected)}});
   return 0;
@@ -86,8 +99,7 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   settings.start = parameters_from_option(
       options.parameters, material::brought_inside(material::default_parameters(), settings.ranges), settings.ranges);
   if (!settings.start.extensions.empty())
-    warn(fmt::format("{}: its extensions are left aside: a diagnosis asks what the base model lacks",
-                     options.parameters));
+    warn(fmt::format("{}: its extensions are not used: a diagnosis begins with the base model", options.parameters));
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
@@ -109,6 +121,37 @@ diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
   }
 }
 
+/// The status of an effect in a plan.
+std::string_view plan_in_words(std::string_view status) {
+  if (status == "told_apart") return "can be named";
+  if (status == "visible") return "visible, but not told apart";
+  if (status == "invisible") return "not visible";
+  if (status == "not_shown") return "these tests cannot show it";
+  return status;
+}
+
+void print_plan(const diagnosis::Plan& plan) {
+  fmt::print("{} in {}; the effect sizes from which a cause is visible, and from which it can be named\n",
+             counted(plan.specimens, "specimen"), counted(plan.groups, "group"));
+  if (!plan.too_few.empty()) fmt::print("too few as they are: {}\n", plan.too_few);
+  constexpr const char* kLine = "  {:<34} {:<28} {:>12} {:>10} {:<24}  {}\n";
+  fmt::print(kLine, "candidate effect", "status", "visible from", "named from", "unit",
+             "most similar effect (collinearity)");
+  for (const diagnosis::PlannedEffect& e : plan.effects) {
+    fmt::print(kLine, material::effect_in_words(e.name), plan_in_words(e.status), size_or_dash(e.smallest_seen),
+               size_or_dash(e.smallest_told_apart), e.unit,
+               e.nearest_rival.empty()
+                   ? "none"
+                   : fmt::format("{} ({:.2f})", material::effect_in_words(e.nearest_rival), e.rival_cosine));
+  }
+  for (const diagnosis::PlannedAddition& a : plan.additions) {
+    fmt::print("add {} ({} x {} specimens):\n", a.words, a.specimens.size(), a.replicates);
+    for (const auto& c : a.changes)
+      fmt::print("    {}: {} -> {}, named from {}\n", material::effect_in_words(c.effect), plan_in_words(c.from),
+                 plan_in_words(c.to), size_or_dash(c.told_apart_from));
+  }
+}
+
 int plan(const Options& options) {
   if (options.set.empty())
     throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
@@ -127,18 +170,7 @@ int plan(const Options& options) {
     print_json(document);
     return 0;
   }
-  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and named\n", plan.specimens, plan.groups);
-  if (!plan.too_few.empty()) fmt::print("too few as they are: {}\n", plan.too_few);
-  for (const diagnosis::PlannedEffect& e : plan.effects) {
-    fmt::print("  {:<22} {:<10} seen from {:>9}  named from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status,
-               size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
-               e.nearest_rival.empty() ? "none" : e.nearest_rival, e.rival_cosine);
-  }
-  for (const diagnosis::PlannedAddition& a : plan.additions) {
-    fmt::print("add {} ({} x {} specimens):\n", a.words, a.specimens.size(), a.replicates);
-    for (const auto& c : a.changes)
-      fmt::print("    {}: {} -> {}, named from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
-  }
+  print_plan(plan);
   return 0;
 }
 
@@ -180,8 +212,9 @@ int diagnose(const Options& options) {
     document["rejected"] = rejected_json(set.rejected);
     print_json(document);
   } else {
-    fmt::print("{}: {}\n", diagnosis::to_string(d.verdict), d.summary);
+    fmt::print("{}: {}\n", report::verdict_in_words(std::string(diagnosis::to_string(d.verdict))), d.summary);
     print_candidates(d);
+    print_trends_and_next_tests(d);
   }
   return 0;
 }
@@ -192,30 +225,32 @@ void add_diagnose(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = add_command(app, action, "diagnose",
                                   "Show what the simulation gets wrong about measurements, and why", options, diagnose);
-  command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
-  command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
+  command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv (docs/FORMATS.md)");
+  command.add_option("--params", options->parameters, "Parameter file with the initial guess of the base model");
   add_ranges(command, options->ranges);
   add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--discretisation-floor", options->discretisation_floor,
-                     "What the tester's elements leave of an error (data/discretisation_floor.toml)");
+                     "File of discretisation errors; default: data/discretisation_floor.toml");
   command.add_flag("--fracture", options->fracture,
-                   "Toughness specimens with their curves take part (not yet proven by blind trials)");
+                   "Include toughness specimens with their curves (not yet proven by blind trials)");
   command.add_flag("--plan", options->plan,
-                   "Before anything is measured: what these specimens could tell apart, and which few more would help");
+                   "Before anything is measured: which effects these specimens could tell apart, and which few more "
+                   "specimens would help");
   command.add_option("--report", options->report, "One self-contained HTML page for the person who measured");
   command.add_option("--store", options->store,
-                     "File that keeps fracture simulations, so that an interrupted diagnosis goes on (the one of nacre "
-                     "calibrate serves too)");
+                     "File that keeps the fracture simulations, so that an interrupted diagnosis goes on; that of "
+                     "nacre calibrate can be used");
   command
       .add_option("--search", options->search_budget,
-                  "Evaluations of the fracture tests in search of a base fit; 0: begin at --params")
+                  "Most parameter sets tried for the base model of fracture tests; 0: begin at --params")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")
+  command.add_option("--bootstraps", options->bootstraps, "Bootstrap samples behind the thresholds")
       ->check(CLI::Range(1000, 1'000'000))
       ->capture_default_str();
-  add_seed(command, options->seed, "Of the resampling")->capture_default_str();
-  command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");
+  add_seed(command, options->seed, "Seed of the bootstrap")->capture_default_str();
+  command.add_option("--table", options->table,
+                     "CSV table of any data, without patterns: prints only which columns the residuals follow");
   command.add_option("--measured", options->measured, "Column of measured values in --table")->needs("--table");
   command.add_option("--predicted", options->predicted, "Column of predicted values in --table")->needs("--table");
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -1,10 +1,12 @@
-// nacre doctor: what usually keeps a game from running on a machine, each with what to type to mend it.
+// Part of the command line (command.hpp): nacre doctor, what usually keeps a game from running on a machine, each with
+// what to type to mend it.
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "doctor_checks.hpp"
@@ -77,11 +79,19 @@ int examine(const Options& options) {
                         {"remedy", finding.remedy}});
     if (options.json) continue;
     fmt::print("{:<7} {}: {}\n", to_string(finding.verdict), finding.check, finding.found);
-    if (!finding.remedy.empty()) fmt::print("        type: {}\n", finding.remedy);
+    if (!finding.remedy.empty()) fmt::print("        to mend it, type: {}\n", finding.remedy);
   }
-  if (options.json) print_json(document);
-  const auto is_fault = [](const Finding& finding) { return finding.verdict == CheckStatus::fault; };
-  return std::any_of(findings.begin(), findings.end(), is_fault) ? 1 : 0;
+  const auto faults = std::ranges::count(findings, CheckStatus::fault, &Finding::verdict);
+  const auto remarks = std::ranges::count(findings, CheckStatus::remark, &Finding::verdict);
+  if (options.json) {
+    print_json(document);
+  } else if (faults == 0) {
+    fmt::print("Games can be played here{}\n",
+               remarks == 0 ? "" : fmt::format("; {} on time or comfort", counted(remarks, "remark")));
+  } else {
+    fmt::print("{} a game from running\n", counted(faults, "fault keeps", "faults keep"));
+  }
+  return faults == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -90,10 +100,11 @@ void add_doctor(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command =
       add_command(app, action, "doctor", "Check what usually keeps a game from running", options, examine);
-  command.add_option("--logs", options->logs, "Where runs are kept")->capture_default_str();
-  command.add_option("--run", options->run, "Folder of a run to look at, too; default: LOGS/latest");
-  command.add_option("--scenario", options->scenario, "Check for this scenario: its port, several machines, Slurm");
-  command.add_option("--port", options->port, "UDP port to check; 0: any")->check(CLI::Range(0, 65535));
+  command.add_option("--logs", options->logs, "Folder where runs are kept")->capture_default_str();
+  command.add_option("--run", options->run, "Folder of a run to check as well; default: LOGS/latest");
+  command.add_option("--scenario", options->scenario,
+                     "Scenario to be played: also checks its port, several machines, Slurm");
+  command.add_option("--port", options->port, "UDP port to check; 0: any free one")->check(CLI::Range(0, 65535));
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -63,7 +63,7 @@ Finding check_programs() {
   }
   const std::string folder = runtime::this_program().parent_path().string();
   if (missing.empty()) return {"programs of the nodes", CheckStatus::good, "all in " + folder};
-  return {"programs of the nodes", CheckStatus::fault, fmt::format("{} lacks{}", folder, missing),
+  return {"programs of the nodes", CheckStatus::fault, fmt::format("not in {}:{}", folder, missing),
           "cmake --build build"};
 }
 
@@ -94,8 +94,7 @@ Finding check_route(int port, bool lan) {
   }
   if (!source->starts_with("127.")) return {"multicast route", CheckStatus::good, "multicast leaves from " + *source};
   if (!lan) {
-    return {"multicast route", CheckStatus::good,
-            "multicast has a way; it stays on this machine (enough for hosts = local)"};
+    return {"multicast route", CheckStatus::good, "multicast stays on this machine, which is enough for hosts = local"};
   }
   return {"multicast route", CheckStatus::fault, "multicast stays on this machine, and the run spans several",
           "ip route replace 224.0.0.0/4 dev INTERFACE   # the one to the other machines"};
@@ -129,7 +128,7 @@ Finding check_receive_buffer() {
   const long allowed = std::atol(read_file(file).c_str());
   if (allowed >= kWanted) return {"receive buffer", CheckStatus::good, fmt::format("{} bytes allowed", allowed)};
   return {"receive buffer", CheckStatus::remark,
-          fmt::format("{} bytes allowed, {} wanted: bursts lose messages, which are then sent again", allowed, kWanted),
+          fmt::format("{} bytes allowed, {} wanted: in bursts messages are lost and sent again", allowed, kWanted),
           "sysctl -w net.core.rmem_max=8388608"};
 }
 
@@ -154,7 +153,7 @@ Finding check_sync(const fs::path& logs) {
     return {"disk writes", CheckStatus::fault, seconds.error().message,
             fmt::format("ls -ld {0}; df -h {0}; df -i {0}", shell_word(logs))};
   }
-  const std::string found = fmt::format("a file is on disk after {:.1f} ms", 1e3 * *seconds);
+  const std::string found = fmt::format("a file is safely on disk after {:.1f} ms", 1e3 * *seconds);
   if (*seconds < kSlowS) return {"disk writes", CheckStatus::good, found};
   return {"disk writes", CheckStatus::remark, found + ": every measurement waits for that; a local disk is faster",
           "nacre launch SCENARIO.toml --logs FOLDER_ON_ANOTHER_DISK"};
@@ -164,12 +163,12 @@ Finding judge_clock(std::time_t now, int status) {
   constexpr std::time_t kThisProgramIsYounger = 1'767'225'600;  // 2026-01-01
   const std::string says = fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(now));
   if (now < kThisProgramIsYounger) {
-    return {"clock", CheckStatus::fault, says + ": before this program was written",
+    return {"clock", CheckStatus::fault, says + ": earlier than this program",
             "timedatectl set-time 'YYYY-MM-DD hh:mm:ss'"};
   }
-  if ((status & STA_UNSYNC) == 0) return {"clock", CheckStatus::good, says + ", kept in step by the network"};
+  if ((status & STA_UNSYNC) == 0) return {"clock", CheckStatus::good, says + ", synchronised by the network"};
   return {"clock", CheckStatus::remark,
-          says + ", not kept in step: results do not depend on it, but times in logs of several machines will not fit",
+          says + ", not synchronised: results do not depend on it, but the times in logs of several machines differ",
           "timedatectl set-ntp true"};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `nacre doctor` looks at: each check finds something and says what to type to mend it.
+// The checks of `nacre doctor`: each says what it found, and what to type to mend it.
 
 #include <ctime>
 #include <filesystem>

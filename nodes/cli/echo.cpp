@@ -1,4 +1,5 @@
-// nacre echo: messages as they pass, or as they stand in a log, one JSON line each.
+// Part of the command line (command.hpp): nacre echo, messages as they pass, or as they stand in a log, one JSON line
+// each.
 
 #include <chrono>
 #include <filesystem>
@@ -153,7 +154,7 @@ class Silence {
     constexpr auto kPatience = std::chrono::seconds(3);
     if (is_over_ || Clock::now() - since_ < kPatience) return;
     is_over_ = true;
-    remark(fmt::format("the run does not play; `nacre echo --log {}` reads what it said. Waiting for it (Ctrl-C ends)",
+    remark(fmt::format("the run does not play; `nacre echo --log {}` reads its log. Waiting for it (Ctrl-C ends)",
                        shell_word(log_)));
   }
 
@@ -203,10 +204,11 @@ int echo(const Options& options) {
 
 void add_echo(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "echo", "Print messages, one JSON line each", options, echo);
-  command.add_option("CHANNEL", options->channel, "Only this channel (lcmtypes/README.md)");
+  CLI::App& command =
+      add_command(app, action, "echo", "Print the messages of a run, one JSON line each", options, echo);
+  command.add_option("CHANNEL", options->channel, "Print this channel alone (lcmtypes/README.md)");
   add_run_option(command, options->run);
-  command.add_option("--log", options->log, "Read a log (RUN/run.lcm or a node's journal.lcm) instead of the bus");
+  command.add_option("--log", options->log, "Read a log (RUN/run.lcm or a node's journal.lcm) instead of listening");
   command.add_option("--count", options->count, "Stop after so many messages")->check(CLI::Range(1, 1'000'000'000));
 }
 

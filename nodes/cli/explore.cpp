@@ -1,4 +1,4 @@
-// nacre explore: the search for the gamut in this process.
+// Part of the command line (command.hpp): nacre explore, the search for the gamut in this process.
 
 #include <chrono>
 #include <memory>
@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/counted.hpp"
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
@@ -53,8 +54,9 @@ void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& 
                 {"hypervolume_gpa_mpa", hypervolume},
                 {"gamut", options.out}});
   } else {
-    fmt::print("{} patterns ({} failed), {} on the front, hypervolume {:.4f} GPa MPa: {}\n", gamut.size(), failed,
-               front_size, hypervolume, options.out);
+    fmt::print("{} simulated ({} failed), {} of them on the Pareto front, hypervolume {:.4f} GPa MPa; written to {}\n",
+               counted(static_cast<std::int64_t>(gamut.size()), "pattern"), failed, front_size, hypervolume,
+               options.out);
   }
 }
 
@@ -66,7 +68,7 @@ explore::SearchSettings search_settings(const Options& options) {
   settings.batch = options.batch;
   settings.seed = options.seed;
   if (!options.former.empty() && options.algorithm != "learned")
-    throw InputError::format("--former: `{}` learns nothing from former samples, expected --algorithm learned",
+    throw InputError::format("--former: `{}` cannot learn from former samples, expected --algorithm learned",
                              options.algorithm);
   if (!options.known.empty()) settings.known = explore::read_gamut_csv(options.known);
   if (options.former.empty()) return settings;
@@ -84,7 +86,7 @@ int explore_gamut(const Options& options) {
   const auto search = explore::make_search(settings);
   const int unlearnt = settings.population + (settings.former.empty() ? settings.learned.barred_start : 0);
   if (settings.algorithm == "learned" && settings.budget <= unlearnt)
-    remark(fmt::format("--budget {}: `learned` begins with {} patterns that nothing is learnt from", settings.budget,
+    remark(fmt::format("--budget {}: too small for `learned`, which begins to learn after {} patterns", settings.budget,
                        unlearnt));
   prepare_output_file(options.out, {options.cache, options.params, options.former});
   std::unique_ptr<store::SimulationCache> cache;
@@ -115,11 +117,11 @@ int explore_gamut(const Options& options) {
     saved = std::chrono::steady_clock::now();
   }
   if (interrupts.any() && search->evaluated().size() == settings.known.size()) {
-    remark(fmt::format("stopped before anything was found; {} is as it was", options.out));
+    remark(fmt::format("stopped before a pattern was simulated; {} is unchanged", options.out));
     return 1;
   }
   explore::write_gamut_csv(options.out, search->evaluated());
-  if (interrupts.any()) remark("stopped; the gamut found so far is kept");
+  if (interrupts.any()) remark("stopped; the patterns simulated so far are kept");
   print_summary(search->evaluated(), options, failed);
   return interrupts.any() || search->evaluated().empty() ? 1 : 0;
 }
@@ -128,27 +130,29 @@ int explore_gamut(const Options& options) {
 
 void add_explore(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      add_command(app, action, "explore", "Search for the gamut of modulus and toughness", options, explore_gamut);
+  CLI::App& command = add_command(app, action, "explore", "Search for patterns that are stiff and tough, by simulation",
+                                  options, explore_gamut);
   command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
-  command.add_option("--algorithm", options->algorithm, fmt::format("{}", fmt::join(explore::algorithms(), ", ")))
+  command
+      .add_option("--algorithm", options->algorithm,
+                  fmt::format("How to search: {}", fmt::join(explore::algorithms(), ", ")))
       ->capture_default_str();
-  command.add_option("--budget", options->budget, "Simulations")
+  command.add_option("--budget", options->budget, "How many patterns to simulate")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  command.add_option("--out", options->out, "gamut.csv")->required();
+  command.add_option("--out", options->out, "gamut.csv to write: every simulated pattern with E and T")->required();
   command.add_option("--cache", options->cache,
-                     "Database of simulations, read and continued; with it an interrupted search goes on where it was");
+                     "Database that keeps the simulations, so that an interrupted search goes on where it was");
   command.add_option("--known", options->known,
-                     "gamut.csv of the same parameters and fidelity: what it holds is not simulated again");
+                     "gamut.csv of the same parameters and fidelity: its patterns are not simulated again");
   command.add_option("--former", options->former,
-                     "gamut.csv of other parameters or another fidelity, for `learned` to begin with");
+                     "gamut.csv of other parameters or another fidelity, from which `learned` learns");
   add_fidelity(command, options->fidelity)->capture_default_str();
-  add_seed(command, options->seed, "Of every random choice")->capture_default_str();
-  command.add_option("--population", options->population, "Population")
+  add_seed(command, options->seed, "Seed of every random choice")->capture_default_str();
+  command.add_option("--population", options->population, "Patterns of a generation, or of the first batch")
       ->check(CLI::Range(2, 100'000))
       ->capture_default_str();
-  command.add_option("--batch", options->batch, "Patterns simulated between two decisions")
+  command.add_option("--batch", options->batch, "Patterns simulated at once, between two steps of the search")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -1,4 +1,5 @@
-// nacre fabricate: what a voxel printer takes, for designs or for what a game has ordered.
+// Part of the command line (command.hpp): nacre fabricate, files for a voxel printer, of designs or of what a game has
+// ordered.
 
 #include <algorithm>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
@@ -85,7 +87,7 @@ std::vector<WantedSpecimens> wanted_by_name(const Options& options) {
   for (const std::string& name : names) {
     const pattern::Design design = pattern::design_from_argument(name);
     if (!taken.insert(design.name()).second) {
-      warn(fmt::format("{}: named twice, printed once", name));
+      warn(fmt::format("{}: named twice, made once", name));
       continue;
     }
     warn_about_constraints(design);
@@ -145,7 +147,7 @@ std::string free_batch(const std::string& batch, const game::LaboratoryFacts& fa
   std::string name = batch;
   for (int copy = 2; names_specimens(name, facts); ++copy) name = fmt::format("{}_{}", batch, copy);
   if (name != batch)
-    remark(fmt::format("the run has specimens {}-01 and so on: these are called {}-01 ...", batch, name));
+    remark(fmt::format("the run already has specimens called {}-01, ...: these are called {}-01, ...", batch, name));
   return name;
 }
 
@@ -179,8 +181,8 @@ void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenMo
                count.layers, count.columns, count.rows, fabricate::rigid_fraction(count.total),
                model.wanted.design.rigid_fraction(), model.wanted.replicates);
   }
-  fmt::print("{} specimens on {} tray{}: {}/build_sheet.html\n", job.specimens.size(), job.trays,
-             job.trays == 1 ? "" : "s", folder);
+  fmt::print("{} on {}: {}/build_sheet.html\n", counted(static_cast<std::int64_t>(job.specimens.size()), "specimen"),
+             counted(job.trays, "tray"), folder);
 }
 
 int fabricate_job(const Options& options) {
@@ -189,7 +191,7 @@ int fabricate_job(const Options& options) {
   if (options.orders && options.coupons) throw InputError("nacre fabricate: expected either --orders or --coupons");
   const fabricate::JobRequest request = request_of(options);
   if (request.wanted.empty()) {
-    remark("every order of the game is printed or measured");
+    remark("nothing to print: every order of the game is printed or measured");
     if (options.json)
       print_json(
           {{"trays", 0}, {"models", nlohmann::ordered_json::array()}, {"specimens", nlohmann::ordered_json::array()}});
@@ -218,10 +220,11 @@ int fabricate_job(const Options& options) {
 
 void add_fabricate(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(
-      app, action, "fabricate", "Make print files: droplet-exact slices, build sheet, preview", options, fabricate_job);
+  CLI::App& command =
+      add_command(app, action, "fabricate", "Make print files: one picture per layer, build sheet, preview", options,
+                  fabricate_job);
   command.add_option("DESIGN", options->designs, kDesignWords);
-  command.add_option("--out", options->out, "Folder of the job")->required();
+  command.add_option("--out", options->out, "Folder of the print job")->required();
   command
       .add_option("--test", options->test,
                   "toughness (notched specimen), modulus (ASTM D638 type I), both, or tensile (the bar, homogeneous, "
@@ -231,11 +234,11 @@ void add_fabricate(CLI::App& app, Action& action) {
   command.add_option("--replicates", options->replicates, "Specimens of each design and test")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_option("--orientation-deg", options->orientation_deg, "0, or 90: printed turned by a quarter")
+  command.add_option("--orientation-deg", options->orientation_deg, "0, or 90: printed turned by a quarter turn")
       ->check(CLI::IsMember({0.0, 90.0}))
       ->capture_default_str();
-  command.add_option("--thickness-mm", options->thickness_mm, "Thickness")->capture_default_str();
-  command.add_option("--strain-rate-per-s", options->strain_rate_per_s, "Rate at which they are to be pulled")
+  command.add_option("--thickness-mm", options->thickness_mm, "Thickness of the specimens")->capture_default_str();
+  command.add_option("--strain-rate-per-s", options->strain_rate_per_s, "Strain rate at which they are to be pulled")
       ->check(CLI::Range(measurement::kStrainRatePerS.least, measurement::kStrainRatePerS.most))
       ->capture_default_str();
   command
@@ -243,15 +246,17 @@ void add_fabricate(CLI::App& app, Action& action) {
           "--loading", options->loading,
           "How a tensile coupon is to be pulled: monotonic, or the strains to turn at, \"strain 0.02 0.005 0.022\"")
       ->capture_default_str();
-  command.add_flag("--twins", options->twins, "Each layout also turned by a quarter");
-  command.add_flag("--coupons", options->coupons, "The calibration coupons: laminates and checkerboards");
-  command.add_flag("--orders", options->orders, "What a game has ordered and nobody has printed yet");
+  command.add_flag("--twins", options->twins, "Also print each layout turned by a quarter turn");
+  command.add_flag("--coupons", options->coupons, "Print the coupons for diagnosis: laminates and checkerboards");
+  command.add_flag("--orders", options->orders, "Print the orders of a game that nobody has printed yet");
   add_run_option(command, options->run);
   command.add_option("--batch", options->batch, "Name of the print batch; default: the folder's name");
-  command.add_option("--interface", options->interface, "Droplets between unlike pixels")
+  command
+      .add_option("--interface", options->interface,
+                  "Droplets between soft and rigid pixels: half and half, or a sharp edge")
       ->check(CLI::IsMember({"engineered", "sharp"}))
       ->capture_default_str();
-  command.add_option("--grips", options->grips, "Gripped ends: the pattern, or rigid")
+  command.add_option("--grips", options->grips, "Material of the gripped ends")
       ->check(CLI::IsMember({"pattern", "rigid"}))
       ->capture_default_str();
   command.add_flag("--print-cut", options->print_cut, "Print the triangular cut instead of milling it");
@@ -263,11 +268,10 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->expected(2)
       ->capture_default_str();
-  command.add_option("--gap-mm", options->gap_mm, "Between specimens")->capture_default_str();
-  add_seed(command, options->seed, "Of the mixtures' droplets and the print order")->capture_default_str();
-  command.add_flag("--replace", options->replace,
-                   "Take the place of another job in the folder, filled-in sheets included");
-  command.add_flag("--json", options->json, "The build sheet on standard output");
+  command.add_option("--gap-mm", options->gap_mm, "Gap between specimens on the tray")->capture_default_str();
+  add_seed(command, options->seed, "Seed of the mixtures' droplets and of the print order")->capture_default_str();
+  command.add_flag("--replace", options->replace, "Delete another job in the folder first, filled-in sheets included");
+  command.add_flag("--json", options->json, "Print the build sheet as JSON");
 }
 
 }  // namespace nacre::cli

@@ -1,10 +1,12 @@
-// nacre families: which families of good designs there are, their variants, and a map of each (thesis 2.4).
+// Part of the command line (command.hpp): nacre families, the families of good designs, their variants, and a map of
+// each (thesis 2.4).
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
@@ -16,7 +18,7 @@
 #include "output.hpp"
 #include "output_path.hpp"
 #include "run_access.hpp"
-#include "sysid/offline.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -38,9 +40,9 @@ std::vector<SeedFamily> families_in(const std::filesystem::path& folder,
   const std::vector<SeedFamily> proposed = families::proposed_families(designs);
   if (std::filesystem::exists(file)) {
     std::vector<SeedFamily> known = families::read_families(file);
-    remark(fmt::format("families and their seeds are those of {}", file.string()));
+    remark(fmt::format("the families and their seeds are read from {}", file.string()));
     if (known != proposed)
-      warn(fmt::format("{}: other families than these measurements propose; without this file they are proposed anew",
+      warn(fmt::format("{}: other families than these measurements propose; delete the file to have them proposed anew",
                        file.string()));
     return known;
   }
@@ -49,28 +51,31 @@ std::vector<SeedFamily> families_in(const std::filesystem::path& folder,
 }
 
 void print_family(const nlohmann::ordered_json& family) {
-  fmt::print("{}: {} seeds, {} samples\n", family["name"].get<std::string>(), family["seeds"].get<int>(),
-             family["samples"].get<int>());
+  fmt::print("{}: {}, {}\n", family["name"].get<std::string>(), counted(family["seeds"].get<int>(), "seed"),
+             counted(family["samples"].get<int>(), "variant"));
   for (const auto& map : family["maps"])
-    fmt::print("  {}  {} sampled, {} interpolated (+{:.1f} %; thesis, Table A.7: 4.5 %), map explains {:.1f} %\n",
-               map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
-               100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
+    fmt::print(
+        "  map of {}: {} variants sampled, {} interpolated (+{:.1f} %; thesis, Table A.7: 4.5 %); the map shows {:.1f} "
+        "% "
+        "of their distances\n",
+        map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
+        100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
   if (family["mechanisms"].empty()) return;
   fmt::print(
-      "  what goes with toughness among patterns of equal rigid fraction and modulus ({} broken; evidence, not "
-      "cause):\n",
+      "  correlation of crack mechanisms with toughness at equal rigid fraction and modulus ({} patterns broken; "
+      "evidence, not cause):\n",
       family["mechanisms"][0]["patterns"].get<int>());
   for (const auto& found : family["mechanisms"]) {
     const double p = found["p_family_wise"].get<double>();
-    fmt::print("    {:<11} {:+.2f}, p {:.3f}{}\n", found["mechanism"].get<std::string>(),
-               found["partial"].get<double>(), p, p < kEstablished ? "" : ": no more than chance would give");
+    fmt::print("    {:<11} {:+.2f}, chance {:.3f}{}\n", found["mechanism"].get<std::string>(),
+               found["partial"].get<double>(), p, p < kEstablished ? "" : ": no more than chance gives");
   }
 }
 
 void print_proposed(const std::vector<SeedFamily>& proposed, const std::filesystem::path& file, bool json) {
   nlohmann::ordered_json document = {{"file", file.string()}, {"families", nlohmann::ordered_json::array()}};
   for (const SeedFamily& family : proposed) {
-    if (!json) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());
+    if (!json) fmt::print("{}: {}\n", family.name, counted(static_cast<std::int64_t>(family.seeds.size()), "seed"));
     auto& entry = document["families"].emplace_back(nlohmann::ordered_json{{"name", family.name}});
     for (const Pattern& seed : family.seeds) entry["seeds"].push_back(seed.key());
   }
@@ -119,36 +124,41 @@ int find_families(const FamilyOptions& options) {
 
 void add_families(CLI::App& app, Action& action) {
   const auto options = std::make_shared<FamilyOptions>();
-  CLI::App& command = add_command(app, action, "families",
-                                  "Group the best measured designs, sample around them, and map what was found",
-                                  options, find_families);
-  command.add_option("SET", options->set, "Measurement set; default: what the run has measured");
+  CLI::App& command =
+      add_command(app, action, "families", "Group the best measured designs, simulate variants of them, and draw maps",
+                  options, find_families);
+  command.add_option("SET", options->set, "Measurement set; default: the measurements of the run");
   add_run_option(command, options->run);
   command.add_option("--params", options->params,
                      "Parameter file; default: the run's adopted model, or the built-in parameters");
   add_ranges(command, options->ranges, "the run's, else the thesis'");
   command.add_option("--out", options->out,
-                     "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
+                     "Folder to write to, default RUN/families or families; edit families.toml in it and call again");
   command.add_flag("--propose", options->propose,
-                   "Write families.toml alone: to be edited, also before the family stage of a game");
+                   "Write families.toml alone, to be edited; also before the family stage of a game");
   add_fidelity(command, options->fidelity, "; default: the run's, or full");
-  command.add_option("--samples", options->samples, "Patterns of a family (thesis: 2000 to 3000 around each seed)")
+  command
+      .add_option("--samples", options->samples,
+                  "How many variants of a family to simulate (thesis: 2000 to 3000 around each seed)")
       ->check(CLI::Range(4, 100'000))
       ->capture_default_str();
-  command.add_option("--rank", options->rank, "Near-Pareto: non-dominated up to this rank")
+  command
+      .add_option("--rank", options->rank, "How near to the front a design must be: 1 on it, 2 on the next one, ...")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_option("--calibration", options->calibration, "Evaluations of a family's own calibration; 0: none")
+  command
+      .add_option("--calibration", options->calibration,
+                  "Most parameter sets tried for a family's own model; 0: no model of its own")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command
       .add_option("--cracks", options->cracks,
-                  "Patterns of a family whose cracks are looked at; from 20 on mechanisms are compared")
+                  "How many patterns of a family to break for their cracks; from 20 on mechanisms are compared")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command.add_option("--discretisation-floor", options->discretisation_floor,
-                     "Default: data/discretisation_floor.toml");
-  add_seed(command, options->seed, "Of every random choice")->capture_default_str();
+                     "File of discretisation errors; default: data/discretisation_floor.toml");
+  add_seed(command, options->seed, "Seed of every random choice")->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -43,12 +43,12 @@ FamilyData data_of_run(const FamilyOptions& options) {
   const RunAccess run = open_run(options.run);
   const LaboratoryView view = view_laboratory(run);
   if (!view.model) throw InputError::format("{}: no model has been adopted yet", run.folder.string());
-  const bool same_question = options.params.empty() && options.fidelity.empty();
+  const bool same_model = options.params.empty() && options.fidelity.empty();
   return {.measured = game::patterns_with_both(view.facts.book.specimens()),
           .parameters = *view.model,
           .ranges = ranges_from_option(options.ranges.empty() ? run.scenario.ranges_file : options.ranges),
           .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
-          .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
+          .staged = same_model ? staged_families(run) : std::vector<StagedFamily>{}};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// What `nacre families` begins with: everything measured and a model of it, from a run or from a measurement set.
+// The input of `nacre families`: everything measured and a model of it, from a run or from a measurement set.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace nacre::cli {
 
-/// What `nacre families` was asked.
+/// The options of `nacre families`.
 struct FamilyOptions {
   std::string set;
   std::string run = "logs/latest";
@@ -48,7 +48,7 @@ struct FamilyData {
 /// From the set that the options name, else from the run. Throws InputError.
 FamilyData family_data(const FamilyOptions& options);
 
-/// The stage's word on this family, when its seeds are the same.
+/// The stage's result for this family, when its seeds are the same.
 const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data);
 
 }  // namespace nacre::cli

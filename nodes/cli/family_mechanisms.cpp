@@ -12,11 +12,11 @@
 
 namespace nacre::cli {
 
-std::vector<Cracked> broken(const std::string& task, const std::vector<pattern::Pattern>& members, int count,
-                            const material::ParameterSet& parameters, tester::Fidelity fidelity,
-                            const Performances& performances) {
+std::vector<CrackedPattern> broken(const std::string& task, const std::vector<pattern::Pattern>& members, int count,
+                                   const material::ParameterSet& parameters, tester::Fidelity fidelity,
+                                   const Performances& performances) {
   const int wanted = std::min(count, static_cast<int>(members.size()));
-  std::vector<std::optional<Cracked>> found(wanted);
+  std::vector<std::optional<CrackedPattern>> found(wanted);
   Progress progress(task, wanted);
   parallel_for(wanted, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
@@ -28,14 +28,14 @@ std::vector<Cracked> broken(const std::string& task, const std::vector<pattern::
                       crack::mechanisms_of(simulation, crack::record_of(simulation, result->breaks))};
     progress.advance();
   });
-  std::vector<Cracked> all;
-  for (const std::optional<Cracked>& each : found)
+  std::vector<CrackedPattern> all;
+  for (const std::optional<CrackedPattern>& each : found)
     if (each) all.push_back(*each);
   return all;
 }
 
-nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked, const std::filesystem::path& file,
-                                            std::uint64_t seed) {
+nlohmann::ordered_json mechanisms_of_family(const std::vector<CrackedPattern>& cracked,
+                                            const std::filesystem::path& file, std::uint64_t seed) {
   std::string text = "pattern,rigid_fraction,modulus_pa,toughness_pa";
   std::vector<families::FeatureColumn> features, controls = {{"rigid_fraction", {}}, {"modulus_pa", {}}};
   families::FeatureColumn outcome{"toughness_pa", {}};
@@ -43,7 +43,7 @@ nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked,
     text += fmt::format(",{}", mechanism.name);
     features.push_back({std::string(mechanism.name), {}});
   }
-  for (const Cracked& each : cracked) {
+  for (const CrackedPattern& each : cracked) {
     text += fmt::format("\n{},{:.4f},{:.6g},{:.6g}", each.pattern.key(), each.pattern.rigid_fraction(), each.modulus_pa,
                         each.toughness_pa);
     controls[0].values.push_back(each.pattern.rigid_fraction());

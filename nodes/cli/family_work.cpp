@@ -19,6 +19,7 @@
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
+#include "sysid/offline.hpp"
 
 namespace nacre::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "family_data.hpp"
-#include "sysid/offline.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::cli {
 

@@ -1,4 +1,4 @@
-// nacre film: a recorded fracture film as a GIF or as pictures.
+// Part of the command line (command.hpp): nacre film, a recorded fracture film as a GIF or as pictures.
 
 #include <filesystem>
 #include <string>
@@ -28,11 +28,12 @@ int draw(const Options& options) {
 
 void add_film(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "film", "Draw a recorded fracture film", options, draw);
-  command.add_option("FILM", options->film, "Film of `nacre simulate --frames` or of a run, RUN/films/*.film")
+  CLI::App& command =
+      add_command(app, action, "film", "Draw a recorded fracture film as a GIF or as pictures", options, draw);
+  command.add_option("FILM", options->film, "Film data, of `nacre simulate --frames` or of a run: RUN/films/*.film")
       ->required();
   command.add_option("--out", options->out, "GIF to write, or folder for PNG pictures")->required();
-  command.add_option("--width", options->width, "Width of the pictures in points")
+  command.add_option("--width", options->width, "Width of the pictures in pixels")
       ->check(CLI::Range(kNarrowestPicture, kWidestPicture))
       ->capture_default_str();
 }

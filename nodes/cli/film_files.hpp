@@ -7,7 +7,7 @@
 
 namespace nacre::cli {
 
-/// Smallest and largest width of the pictures, in points.
+/// Smallest and largest width of the pictures, in pixels.
 inline constexpr int kNarrowestPicture = 320, kWidestPicture = 3840;
 
 /// Whether `out` names a GIF; otherwise it is a folder for PNG pictures.

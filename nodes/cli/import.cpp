@@ -1,4 +1,4 @@
-// nacre import: raw exports of a testing machine -> a measurement set.
+// Part of the command line (command.hpp): nacre import, raw exports of a testing machine as a measurement set.
 
 #include "measurement/import.hpp"
 
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "command.hpp"
 #include "measurement/export_list.hpp"
@@ -68,7 +69,7 @@ void print_import(const measurement::Import& import, const Options& options) {
                  one.record.valid ? "" : "  NOT VALID");
       for (const std::string& decision : one.decisions) fmt::print("    {}\n", decision);
     }
-    fmt::print("{} specimens{}{}, {} rejected: {}\n", import.specimens.size(),
+    fmt::print("{}{}{}, {} rejected: {}\n", counted(static_cast<std::int64_t>(import.specimens.size()), "specimen"),
                import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
                import.replaced > 0 ? fmt::format(" ({} replaced)", import.replaced) : "", import.rejected.size(),
                options.out);
@@ -169,16 +170,18 @@ void add_import(CLI::App& app, Action& action) {
                                   options, import_exports);
   command.add_option(
       "TESTER.csv", options->files,
-      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, beside it");
-  command.add_option("--specimens", options->sheet, "Sheet: which file is which specimen, and its size")
+      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, in its folder");
+  command
+      .add_option("--specimens", options->sheet,
+                  "Specimen sheet: which file is which specimen, and its width and thickness")
       ->check(CLI::ExistingFile);
-  command.add_option("--out", options->out, "Folder of the measurement set; one that exists gains specimens");
-  command.add_flag("--list", options->list, "Show what the files hold: parts, columns, units, ranges; nothing is imported");
-  command.add_option("--preview", options->preview,
-                     "Write this HTML page of what would be imported, and no set");
+  command.add_option("--out", options->out, "Folder of the measurement set; specimens are added to one that exists");
+  command.add_flag("--list", options->list,
+                   "Show what the files hold: parts, columns, units, ranges; nothing is imported");
+  command.add_option("--preview", options->preview, "Write this HTML page of what would be imported, and no set");
   command.add_flag("--replace", options->replace,
-                   "Specimens that the set has with other content are written anew; its judgement of them stays");
-  command.add_option("--toe", options->toe, "First part of the curves: compensate (ASTM D638 A1) or keep")
+                   "Replace specimens that the set holds with other values; whether they are valid stays");
+  command.add_option("--toe", options->toe, "Flat beginning of the curves: compensate (ASTM D638 A1) or keep")
       ->check(CLI::IsMember({"compensate", "keep"}))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

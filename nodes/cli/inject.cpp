@@ -1,4 +1,4 @@
-// nacre inject: measurements from anywhere into a running game.
+// Part of the command line (command.hpp): nacre inject, measurements from anywhere into a running game.
 
 #include <algorithm>
 #include <chrono>
@@ -30,8 +30,8 @@ struct Options {
   bool json = false;
 };
 
-/// What became of the specimens of a set.
-struct Delivery {
+/// How many specimens of a set arrived.
+struct SetDelivery {
   int accepted = 0;    ///< new to the validation agent
   int repeated = 0;    ///< it had them already
   int unanswered = 0;  ///< a node has not got them
@@ -54,7 +54,7 @@ void wait_for_receivers(runtime::Endpoint& endpoint, const std::vector<std::stri
   }
 }
 
-void print_delivery(const Delivery& delivery, bool json) {
+void print_delivery(const SetDelivery& delivery, bool json) {
   if (!json) {
     fmt::print("{} accepted, {} repeated, {} conflicting, {} unanswered, {} rejected\n", delivery.accepted,
                delivery.repeated, delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
@@ -86,7 +86,7 @@ struct Offered {
 
 /// Offers what no node contradicts and every node would take; the rest goes into `delivery`.
 Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, const measurement::MeasurementSet& set,
-                        const std::string& folder, runtime::Endpoint& endpoint, Delivery& delivery) {
+                        const std::string& folder, runtime::Endpoint& endpoint, SetDelivery& delivery) {
   Offered offered;
   for (std::size_t i = 0; i < set.specimens.size(); ++i) {
     const measurement::SpecimenRecord& specimen = set.specimens[i];
@@ -111,10 +111,10 @@ Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, cons
 }
 
 /// Sends a set and waits for the answers of those that listen.
-Delivery send(const RunAccess& run, const HeldMeasurements& held_before, const measurement::MeasurementSet& set,
-              const Options& options) {
+SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, const measurement::MeasurementSet& set,
+                 const Options& options) {
   const auto endpoint = speak(run, "inject");
-  Delivery delivery;
+  SetDelivery delivery;
   delivery.rejected = set.rejected;
   const auto [hashes, specimens, repeated] = offer_specimens(run, held_before, set, options.set, *endpoint, delivery);
   if (hashes.empty() && delivery.conflicting.empty())
@@ -145,7 +145,7 @@ int inject(const Options& options) {
   const LaboratoryView view = view_laboratory(
       run, [&](const std::string& payload) { enter(held.validation_agent, payload, run.scenario.fidelity); });
   for (const std::string& doubt : doubts_about(run, view, set.specimens)) warn(doubt);
-  const Delivery delivery = send(run, held, set, options);
+  const SetDelivery delivery = send(run, held, set, options);
   print_delivery(delivery, options.json);
   if (delivery.unanswered > 0) say_unanswered(delivery.unanswered_by, options.timeout_s);
   return delivery.unanswered > 0 || !delivery.conflicting.empty() ? 1 : 0;
@@ -155,10 +155,11 @@ int inject(const Options& options) {
 
 void add_inject(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "inject", "Bring measurements into a running game", options, inject);
+  CLI::App& command = add_command(app, action, "inject", "Hand measurements to a running game", options, inject);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   add_run_option(command, options->run);
-  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the nodes that take measurements")
+  command
+      .add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the nodes that take measurements")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

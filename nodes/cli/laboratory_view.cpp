@@ -117,7 +117,10 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
     if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
   const auto take_model = [&](const wire::AdoptedModel& model) { view.model = model.parameters; };
-  const auto take_round = [&](const wire::RoundSummary& round) { last_round = std::max(last_round, round.round); };
+  const auto take_round = [&](const wire::RoundSummary& round) {
+    last_round = std::max(last_round, round.round);
+    view.is_over = view.is_over || round.last;
+  };
   read_validation_agent(run,
                         {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
                          {"MEASUREMENT",

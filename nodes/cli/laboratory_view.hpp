@@ -27,6 +27,7 @@ struct LaboratoryView {
   std::vector<OrderState> orders;
   std::optional<wire::Proposal> open_proposal;  ///< that of the last round that is over: decided on now
   std::optional<material::ParameterSet> model;  ///< that the validation agent adopted last
+  bool is_over = false;                         ///< the last round is closed, and with it the family stage
 };
 
 /// `measured` is handed the payload of every MEASUREMENT, too. Throws InputError when the record of what was printed

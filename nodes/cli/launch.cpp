@@ -1,4 +1,4 @@
-// nacre launch: plays a game. nacre record: its recorder.
+// Part of the command line (command.hpp): nacre launch, which plays a game, and nacre record, its recorder.
 
 #include <string>
 
@@ -27,15 +27,14 @@ void check_inputs(const game::Scenario& scenario) {
   if (scenario.laboratory.virtual_lab) make_laboratory(scenario);
 }
 
-/// Inks of one's own in one place and the thesis' in another: most likely something was forgotten.
+/// Own inks in one place and the thesis' in another: most likely something was forgotten.
 void warn_about_inks(const game::Scenario& scenario) {
   const bool thesis_base = scenario.base_materials_file.ends_with(game::Scenario{}.base_materials_file);
   const bool own_model = !scenario.model_file.empty() || !scenario.ranges_file.empty();
   if (own_model && thesis_base)
     warn(
-        "round 0 is fitted to the thesis' base materials; of a model_file its extensions stay. For other inks name "
-        "their "
-        "base_materials_file, or \"\" to begin with the model as it is");
+        "round 0 is fitted to the thesis' base materials; only the extensions of a model_file are kept. For other inks "
+        "name their base_materials_file, or \"\" to begin with the model as it is");
   const bool own_inks = !scenario.ranges_file.empty() || (!scenario.base_materials_file.empty() && !thesis_base);
   if (own_inks && scenario.laboratory.virtual_lab && scenario.laboratory.file.empty())
     warn(
@@ -72,7 +71,7 @@ int play(const runtime::LaunchOptions& options) {
     throw InputError("nacre launch: --logs says where a new run is kept; a resumed one stays in its folder");
   }
   if (!options.only.empty() && options.resume.empty()) {
-    throw InputError("nacre launch: --only takes part in a run: expected --resume RUN, its folder or a copy of it");
+    throw InputError("nacre launch: --only joins a run: expected --resume RUN, its folder or a copy of it");
   }
   if (!options.only.empty() && !options.elsewhere.empty()) {
     throw InputError("nacre launch: expected either --only or --elsewhere, not both");
@@ -112,14 +111,15 @@ int record(const RecordOptions& options) {
 
 void add_launch(CLI::App& app, Action& action) {
   const auto options = std::make_shared<runtime::LaunchOptions>();
-  CLI::App& command = add_command(app, action, "launch", "Play a game", options, play);
+  CLI::App& command = add_command(app, action, "launch",
+                                  "Play a game: propose, measure, calibrate, diagnose, round by round", options, play);
   command.add_option("SCENARIO", options->scenario, "Scenario file (launch/README.md)");
-  command.add_option("--resume", options->resume, "Folder of a run to go on with");
-  command.add_option("--run", options->run_name, "Name of the run's folder; default: date-time-scenario");
-  command.add_option("--logs", options->logs, "Where a new run is kept; default: logs");
+  command.add_option("--resume", options->resume, "Folder of a run to continue");
+  command.add_option("--run", options->run_name, "Name of the run and its folder; default: date-time-scenario");
+  command.add_option("--logs", options->logs, "Folder where the new run is kept; default: logs");
   command.add_option("--port", options->port, "UDP port of the run instead of the scenario's; 0: any free one")
       ->check(CLI::Range(0, 65535));
-  command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: beside nacre");
+  command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: that of nacre");
   add_seed(command, options->seed, "Seed instead of the scenario's");
   command
       .add_option_function<double>(
@@ -131,16 +131,16 @@ void add_launch(CLI::App& app, Action& action) {
           "Seconds until a node that died is started again, the first time in a row; default: 0.5")
       ->check(CLI::Range(0.001, 30.0));
   command.add_option("--elsewhere", options->elsewhere,
-                     "Node that another machine starts (hosts = \"lan\"); repeatable");
+                     "Node that is started on another machine (hosts = \"lan\"); repeatable");
   command.add_option("--only", options->only,
-                     "With --resume: take part with this node in a run launched on another machine; repeatable");
+                     "With --resume: start this node alone, for a run launched on another machine; repeatable");
 }
 
 void add_record(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RecordOptions>();
   CLI::App& command =
-      add_command(app, action, "record", "Record everything on a bus (started by launch)", options, record);
-  command.add_option("--log", options->log, "LCM log, appended to")->required();
+      add_command(app, action, "record", "Record all messages of a run (started by launch)", options, record);
+  command.add_option("--log", options->log, "LCM log to append to")->required();
   command.add_option("--port", options->port, "UDP port of the run")->required()->check(CLI::Range(1, 65535));
   command.add_option("--hosts", options->hosts, "local or lan")->check(CLI::IsMember({"local", "lan"}));
 }

@@ -1,9 +1,10 @@
-// nacre measure: the virtual laboratory as a batch tool.
+// Part of the command line (command.hpp): nacre measure, the virtual laboratory as a batch tool.
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/measure_set.hpp"
@@ -33,7 +34,7 @@ int measure(const Options& options) {
   if (options.orientation == "90") campaign.orientations_deg = {90.0};
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
   prepare_output_folder(options.out);
-  remark(fmt::format("measuring {} designs", campaign.designs.size()));
+  remark(fmt::format("measuring {}", counted(static_cast<std::int64_t>(campaign.designs.size()), "design")));
   Progress progress("measure:");
   const auto records =
       laboratory::measure_set(options.laboratory, options.out, campaign, [&](double share, int done, int all) {
@@ -44,7 +45,8 @@ int measure(const Options& options) {
   if (options.json) {
     print_json({{"specimens", records.size()}, {"valid", valid}, {"set", options.out}});
   } else {
-    fmt::print("{} specimens ({} valid): {}\n", records.size(), valid, options.out);
+    fmt::print("{} ({} valid): {}\n", counted(static_cast<std::int64_t>(records.size()), "specimen"), valid,
+               options.out);
   }
   return valid > 0 ? 0 : 1;
 }
@@ -56,10 +58,11 @@ void add_measure(CLI::App& app, Action& action) {
   CLI::App& command =
       add_command(app, action, "measure", "Measure patterns in the virtual laboratory", options, measure);
   command.add_option("PATTERN", options->patterns, kDesignWords)->required();
-  command.add_option("--lab", options->laboratory, "LAB.toml (docs/FORMATS.md)")->required();
-  command.add_option("--out", options->out, "Folder of the measurement set; the sealed truth goes beside it")
+  command.add_option("--lab", options->laboratory, "Laboratory file, LAB.toml (docs/FORMATS.md)")->required();
+  command
+      .add_option("--out", options->out, "Folder of the measurement set; OUT.truth.toml keeps the hidden parameters")
       ->required();
-  command.add_option("--test", options->test, "Which test")
+  command.add_option("--test", options->test, "Which test to do")
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
   command

@@ -1,5 +1,5 @@
 #pragma once
-// What the program says: answers on standard output, remarks on standard error.
+// What the program prints: results on standard output, remarks on standard error.
 
 #include <optional>
 #include <string>

@@ -1,9 +1,11 @@
-// nacre rebuild: databases made anew. nacre backup: a copy of a run that plays.
+// Part of the command line (command.hpp): nacre rebuild, databases made anew, and nacre backup, a copy of a run that
+// plays.
 
 #include <filesystem>
 #include <string>
 
 #include "analyser/run_tables.hpp"
+#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
@@ -44,7 +46,7 @@ int rebuild_cache(const RebuildOptions& options) {
                 {"breaks", saved.breaks},
                 {"damaged", aside.string()}});
   } else {
-    fmt::print("{}: {} answers and {} cracks saved; the damaged file is {}\n", file.string(), saved.simulations,
+    fmt::print("{}: {} simulations and {} cracks saved; the damaged file is now {}\n", file.string(), saved.simulations,
                saved.breaks, aside.string());
   }
   return 0;
@@ -62,7 +64,8 @@ int rebuild(const RebuildOptions& options) {
   if (options.json) {
     print_json({{"database", database}, {"messages", rebuilt.messages}, {"torn_bytes", rebuilt.torn_bytes}});
   } else {
-    fmt::print("{}: made anew from {} messages of the analyser's journal\n", database, rebuilt.messages);
+    fmt::print("{}: made anew from {} of the analyser's journal\n", database,
+               counted(static_cast<std::int64_t>(rebuilt.messages), "message"));
   }
   return 0;
 }
@@ -119,11 +122,11 @@ int backup(const BackupOptions& options) {
 
 void add_rebuild(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RebuildOptions>();
-  CLI::App& command =
-      add_command(app, action, "rebuild",
-                  "Make a run's database anew from its journal, or save what a damaged cache holds", options, rebuild);
+  CLI::App& command = add_command(app, action, "rebuild",
+                                  "Make a run's database anew from its journal, or save the content of a damaged cache",
+                                  options, rebuild);
   add_run_option(command, options->run);
-  command.add_option("--cache", options->cache, "A damaged simulations.db, instead of a run");
+  command.add_option("--cache", options->cache, "A damaged simulations.db to save, instead of a run");
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 
@@ -131,7 +134,7 @@ void add_backup(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BackupOptions>();
   CLI::App& command = add_command(app, action, "backup", "Copy a run, also while it plays", options, backup);
   add_run_option(command, options->run);
-  command.add_option("--to", options->to, "Folder that gets RUN and the caches of simulations")->required();
+  command.add_option("--to", options->to, "Folder to copy the run and the caches of simulations to")->required();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -1,4 +1,5 @@
-// nacre replay: a recorded game through one node again, and whether it says the same.
+// Part of the command line (command.hpp): nacre replay, a recorded game through one node again, and whether it says the
+// same.
 
 #include <filesystem>
 #include <string>
@@ -84,8 +85,8 @@ void print_report(const runtime::ReplayReport& report, const Options& options) {
                 {"note", report.note}});
     return;
   }
-  fmt::print("{}: {} inputs, {} messages and {} works compared, {} works done again: {}\n", options.node, report.inputs,
-             report.outputs, report.computes, report.recomputed,
+  fmt::print("{}: {} inputs; {} messages and {} computations compared, {} computations repeated: {}\n", options.node,
+             report.inputs, report.outputs, report.computes, report.recomputed,
              report.equal ? "the same, byte for byte" : "DIFFERENT");
   if (!report.difference.empty()) fmt::print("first difference: {}\n", report.difference);
   if (!report.note.empty()) fmt::print("note: {}\n", report.note);
@@ -129,16 +130,16 @@ int replay(const Options& options) {
 
 void add_replay(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      add_command(app, action, "replay", "Feed a recorded game to one node again and compare", options, replay);
+  CLI::App& command = add_command(app, action, "replay",
+                                  "Feed a recorded game to one node again, and compare what it sends", options, replay);
   command
       .add_option("RUN", options->run, "Folder of a run (exact, from the node's journal) or its run.lcm (best effort)")
       ->capture_default_str();
-  command.add_option("--node", options->node, "Which node")
+  command.add_option("--node", options->node, "Node to replay")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(game::kNodes.begin(), game::kNodes.end())));
-  command.add_option("--scenario", options->scenario, "Scenario of the run; default: scenario.toml beside the log");
-  command.add_flag("--recompute", options->recompute, "Do the long work again and compare its results too");
+  command.add_option("--scenario", options->scenario, "Scenario of the run; default: scenario.toml in the folder of the run");
+  command.add_flag("--recompute", options->recompute, "Repeat the long computations and compare their results too");
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

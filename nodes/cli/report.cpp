@@ -1,4 +1,4 @@
-// nacre report: the figures and tables of the thesis from a run of one's own.
+// Part of the command line (command.hpp): nacre report, the figures and tables of the thesis from a run of one's own.
 
 #include <filesystem>
 #include <string>
@@ -29,21 +29,21 @@ int report(const Options& options) {
   for (const auto& round : runtime::read_rounds(run.folder)) remark(runtime::in_words(round));
   const std::filesystem::path database = run.folder / "run.db", page = run.folder / "report.html";
   if (!std::filesystem::exists(database)) {
-    remark(fmt::format("{}: nothing to report yet; the analyser keeps run.db from the first round on",
-                       run.folder.string()));
+    remark(fmt::format("{}: nothing to report yet; the first report follows round 0", run.folder.string()));
     return 1;
   }
   if (options.render)
     write_file_atomically(page, report::render_report(store::read_run_record(database), run.manifest.run_id));
   const std::filesystem::path thesis = shipped_file("data/thesis");
   if (!std::filesystem::exists(thesis))
-    remark("data/thesis is neither here nor above the program: its figures are left out");
+    remark("data/thesis was not found, neither here nor above the program: the thesis' figures are left out");
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
   prepare_output_folder(folder.string());
   report::write_paper(folder, report::read_paper_source(run.folder, run.manifest.run_id,
                                                         std::filesystem::exists(thesis) ? thesis : ""));
   if (const auto model = adopted_parameters(run))
     write_file_atomically(folder / "parameters.toml", material::to_toml(*model));
+  remark("pages written: the report of the game (report.html), the figures and tables of the thesis (index.html)");
   if (std::filesystem::exists(page)) fmt::print("{}\n", page.string());
   fmt::print("{}\n", (folder / "index.html").string());
   return 0;
@@ -53,11 +53,12 @@ int report(const Options& options) {
 
 void add_report(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(
-      app, action, "report", "Write the thesis' figures and tables from a run: one page, SVG and CSV", options, report);
+  CLI::App& command =
+      add_command(app, action, "report", "Write the figures and tables of the thesis from a run: one page, SVG and CSV",
+                  options, report);
   command.add_option("RUN,--run", options->run, "Folder of the run")->capture_default_str();
-  command.add_option("--out", options->out, "Folder to write; default: RUN/paper");
-  command.add_flag("--render", options->render, "Write report.html, the page of the game, again as well");
+  command.add_option("--out", options->out, "Folder to write to; default: RUN/paper");
+  command.add_flag("--render", options->render, "Write report.html, the report of the game, once more as well");
 }
 
 }  // namespace nacre::cli

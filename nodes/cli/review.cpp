@@ -1,4 +1,5 @@
-// nacre review: do the replicates agree, and a person's judgement on a specimen; in a run or in a measurement set.
+// Part of the command line (command.hpp): nacre review, whether replicates agree, and a person's review of a specimen;
+// in a run or in a measurement set.
 
 #include <algorithm>
 #include <map>
@@ -39,16 +40,16 @@ struct Options {
   bool json = false;
 };
 
-/// A judgement that a person makes.
+/// A person's review of a specimen.
 struct SpecimenReview {
   std::string specimen;
   bool valid = false;
   std::string why;
 };
 
-/// A judgement that stands now; in a set it has no revision.
+/// A review that holds now; in a set it has no revision.
 struct Reviewed {
-  SpecimenReview review_of_specimen;
+  SpecimenReview review;
   std::optional<int> revision;
 };
 
@@ -57,11 +58,11 @@ InputError unknown_specimen(const std::string& specimen, const std::string& wher
   return InputError::format("{}: not in {}: expected the name of one of its {} specimens", specimen, where, specimens);
 }
 
-/// A run with what was measured and judged in it so far.
+/// A run with its measurements and reviews so far.
 struct ReviewedRun {
   RunAccess run;
   game::MeasurementBook book;
-  std::map<std::string, int> revisions;  ///< highest of each specimen's judgements
+  std::map<std::string, int> revisions;  ///< highest of each specimen's reviews
 };
 
 ReviewedRun open_reviewed_run(const std::string& folder) {
@@ -71,81 +72,75 @@ ReviewedRun open_reviewed_run(const std::string& folder) {
   return opened;
 }
 
-/// Nothing, said on standard error, where the judgement does not stand.
-std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in,
-                                     const SpecimenReview& review_of_specimen) {
+/// Nothing, said on standard error, where another review of the specimen holds.
+std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in, const SpecimenReview& review) {
   const auto& [run, book, revisions] = in;
   const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
-                                     [&](const auto& each) { return each.specimen == review_of_specimen.specimen; });
-  if (specimen == specimens.end()) throw unknown_specimen(review_of_specimen.specimen, options.run, specimens.size());
-  if (review_of_specimen.valid) {
-    if (const auto reason = book.against_validity(review_of_specimen.specimen)) throw InputError(*reason);
+                                     [&](const auto& each) { return each.specimen == review.specimen; });
+  if (specimen == specimens.end()) throw unknown_specimen(review.specimen, options.run, specimens.size());
+  if (review.valid) {
+    if (const auto reason = book.against_validity(review.specimen)) throw InputError(*reason);
   }
-  const auto last = revisions.find(review_of_specimen.specimen);
+  const auto last = revisions.find(review.specimen);
   const int next = last == revisions.end() ? 1 : last->second + 1;
   const int revision = options.revision > 0 ? options.revision : next;
-  if (const auto held = book.review_against(review_of_specimen.specimen,
-                                            {revision, review_of_specimen.valid, review_of_specimen.why})) {
-    remark(fmt::format("{}: revision {} stands: {}valid: {}", review_of_specimen.specimen, held->revision,
+  if (const auto held = book.review_against(review.specimen, {revision, review.valid, review.why})) {
+    remark(fmt::format("{}: revision {} stands: {}valid: {}", review.specimen, held->revision,
                        held->valid ? "" : "not ", held->why));
     return std::nullopt;
   }
   review_t message{};
-  message.specimen = review_of_specimen.specimen;
+  message.specimen = review.specimen;
   message.revision = revision;
-  message.valid = review_of_specimen.valid;
+  message.valid = review.valid;
   message.by = options.by;
-  message.why = review_of_specimen.why;
+  message.why = review.why;
   if (deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s) != 0) return std::nullopt;
-  return Reviewed{review_of_specimen, revision};
+  return Reviewed{review, revision};
 }
 
-/// Writes the judgements into the table of the set; its curves and everything else stay as they are.
+/// Writes the reviews into the table of the set; its curves and everything else stay as they are.
 std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<SpecimenReview>& reviews) {
   std::vector<Reviewed> reviewed;
   measurement::SetTable table(options.set);
-  for (const SpecimenReview& review_of_specimen : reviews) {
-    if (!table.holds(review_of_specimen.specimen))
-      throw unknown_specimen(review_of_specimen.specimen, options.set, table.size());
-    table.review(review_of_specimen.specimen, review_of_specimen.valid,
-                 fmt::format("{} ({})", review_of_specimen.why, options.by));
-    reviewed.push_back({review_of_specimen, std::nullopt});
+  for (const SpecimenReview& review : reviews) {
+    if (!table.holds(review.specimen)) throw unknown_specimen(review.specimen, options.set, table.size());
+    table.review(review.specimen, review.valid, fmt::format("{} ({})", review.why, options.by));
+    reviewed.push_back({review, std::nullopt});
   }
   table.write(options.set);
   return reviewed;
 }
 
 void print_reviewed(const Reviewed& reviewed) {
-  fmt::print("{}: {}{}\n", reviewed.review_of_specimen.specimen,
-             reviewed.review_of_specimen.valid ? "valid" : "not valid",
+  fmt::print("{}: {}{}\n", reviewed.review.specimen, reviewed.review.valid ? "valid" : "not valid",
              reviewed.revision ? fmt::format(" (revision {})", *reviewed.revision) : "");
 }
 
 void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Reviewed& each : reviewed) {
-    nlohmann::ordered_json one{{"specimen", each.review_of_specimen.specimen},
-                               {"valid", each.review_of_specimen.valid}};
+    nlohmann::ordered_json one{{"specimen", each.review.specimen}, {"valid", each.review.valid}};
     if (each.revision) one["revision"] = *each.revision;
     all.push_back(one);
   }
   print_json({{"reviewed", all}});
 }
 
-/// What stands of the judgements.
+/// The reviews that hold now.
 std::vector<Reviewed> judge_all(const Options& options, const std::vector<SpecimenReview>& reviews) {
   if (reviews.empty()) return {};
   if (!options.set.empty()) return judge_in_set(options, reviews);
   const ReviewedRun run = open_reviewed_run(options.run);
   std::vector<Reviewed> reviewed;
-  for (const SpecimenReview& review_of_specimen : reviews) {
-    if (const auto one = judge_in_run(options, run, review_of_specimen)) reviewed.push_back(*one);
+  for (const SpecimenReview& review : reviews) {
+    if (const auto one = judge_in_run(options, run, review)) reviewed.push_back(*one);
   }
   return reviewed;
 }
 
-/// Status 1 where a judgement does not stand.
+/// Status 1 where another review of a specimen holds.
 int judge(const Options& options, const std::vector<SpecimenReview>& reviews) {
   const std::vector<Reviewed> reviewed = judge_all(options, reviews);
   if (options.json) {
@@ -156,7 +151,7 @@ int judge(const Options& options, const std::vector<SpecimenReview>& reviews) {
   return reviewed.size() == reviews.size() ? 0 : 1;
 }
 
-/// Specimens to hold against each other, and how many of them are enough.
+/// Specimens to compare with each other, and how many of them are enough.
 struct ReviewMaterial {
   measurement::MeasurementSet set;
   measurement::ConsistencySettings settings;
@@ -219,20 +214,33 @@ std::string mean_and_scatter(std::optional<double> mean_pa, std::optional<double
                      scatter ? fmt::format(" +- {:.1f} %", 100.0 * *scatter) : "");
 }
 
+std::string_view in_words(measurement::GroupState state) {
+  switch (state) {
+    case measurement::GroupState::complete:
+      return "complete";
+    case measurement::GroupState::more_needed:
+      return "more specimens needed";
+    case measurement::GroupState::inconsistent:
+      return "the replicates disagree";
+  }
+  return "";
+}
+
 void print_group(const ReplicateGroup& group) {
   const bool is_modulus = group.test == tester::TestKind::modulus;
   fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {}{}\n", group.design.name(),
-             tester::to_string(group.test), unusual_conditions(group.conditions), to_string(group.state),
+             tester::to_string(group.test), unusual_conditions(group.conditions), in_words(group.state),
              group.tested.size(), group.valid.size(),
-             group.wanted > 0 ? fmt::format(", {} more wanted", group.wanted) : "", is_modulus ? "E" : "T",
+             group.wanted > 0 ? fmt::format(", {} more to be tested", group.wanted) : "", is_modulus ? "E" : "T",
              mean_and_scatter(group.mean_pa, group.scatter, is_modulus),
-             group.representative.empty() ? "" : fmt::format("  represented by {}", group.representative));
+             group.representative.empty() ? "" : fmt::format("  most typical: {}", group.representative));
   for (const auto& outlier : group.proposed) {
     for (const auto& reason : outlier.reasons)
       fmt::print("    {} looks out of line: {}\n", outlier.specimen, reason.text);
   }
   if (!group.proposed.empty()) {
-    fmt::print("    without: {}\n", mean_and_scatter(group.mean_without_pa, group.scatter_without, is_modulus));
+    fmt::print("    without {}: {}\n", group.proposed.size() == 1 ? "it" : "them",
+               mean_and_scatter(group.mean_without_pa, group.scatter_without, is_modulus));
   }
 }
 
@@ -259,22 +267,23 @@ void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<m
   for (const auto& group : groups) print_group(group);
   for (const auto& effect : history) {
     if (!effect.notable()) continue;
-    fmt::print("{} {} ({} test, {} specimens): {:+.1f} +- {:.1f} % against the mean of the same designs\n",
-               effect.factor, effect.level, tester::to_string(effect.test), effect.specimens, 100.0 * effect.relative,
+    fmt::print("{} {} ({} test, {} specimens): {:+.1f} +- {:.1f} % from the mean of the same designs\n", effect.factor,
+               effect.level, tester::to_string(effect.test), effect.specimens, 100.0 * effect.relative,
                100.0 * effect.standard_error);
   }
 }
 
 int review(const Options& options) {
   if (!options.set.empty() && options.revision > 0)
-    throw InputError("nacre review: expected --revision in a run only: the judgements of a set are not numbered");
+    throw InputError("nacre review: expected --revision in a run only: the reviews of a set are not numbered");
   if (!options.specimen.empty()) {
     if (options.valid == options.invalid) throw InputError("nacre review: expected either --valid or --invalid");
     if (options.accept) throw InputError("nacre review: expected either a specimen or --accept");
     if (options.why.empty()) throw InputError("nacre review: expected --why with a reason");
     return judge(options, {{options.specimen, options.valid, options.why}});
   }
-  if (options.valid || options.invalid) throw InputError("nacre review: expected a specimen to judge");
+  if (options.valid || options.invalid)
+    throw InputError("nacre review: expected the name of a specimen with --valid or --invalid");
   const auto [set, settings] = material_to_review(options);
   const std::vector<ReplicateGroup> groups = measurement::review_replicates(set.specimens, settings);
   if (!options.accept) {
@@ -298,19 +307,21 @@ int review(const Options& options) {
 
 void add_review(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(
-      app, action, "review", "Show which replicates agree, or judge a measured specimen valid or not", options, review);
-  command.add_option("SPECIMEN", options->specimen, "Specimen to judge; without: show all groups of replicates");
+  CLI::App& command =
+      add_command(app, action, "review", "Show which replicates agree, or declare a measured specimen valid or not",
+                  options, review);
+  command.add_option("SPECIMEN", options->specimen,
+                     "Specimen to declare valid or not; without: show all groups of replicates");
   add_run_option(command, options->run);
-  command.add_option("--set", options->set, "A measurement set instead of a run");
-  command.add_flag("--valid", options->valid, "It counts");
-  command.add_flag("--invalid", options->invalid, "It does not count");
-  command.add_flag("--accept", options->accept, "Judge all proposed outliers not valid");
-  command.add_option("--why", options->why, "Reason, kept with the run or the set");
-  command.add_option("--by", options->by, "Who judges")->capture_default_str();
-  command.add_option("--revision", options->revision, "Number of the judgement; default: one more than the last")
+  command.add_option("--set", options->set, "Measurement set to review instead of a run");
+  command.add_flag("--valid", options->valid, "The specimen counts");
+  command.add_flag("--invalid", options->invalid, "The specimen does not count");
+  command.add_flag("--accept", options->accept, "Declare all specimens that look out of line not valid");
+  command.add_option("--why", options->why, "Reason; it is kept with the run or the set");
+  command.add_option("--by", options->by, "Who says so")->capture_default_str();
+  command.add_option("--revision", options->revision, "Number of the review; default: one more than the last")
       ->check(CLI::Range(1, 1'000'000'000));
-  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+  command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -75,8 +75,8 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
 
 void say_unanswered(const std::set<std::string>& nodes, double timeout_s) {
   remark(
-      fmt::format("{} did not answer within {} s: does the run play? (nacre status) Do the same again: it is safe, and "
-                  "a node may wait for what it has not got",
+      fmt::format("{} did not answer within {} s: does the run play? (nacre status) Type the same again: repeating it "
+                  "is safe, and a node may wait for the message",
                   fmt::join(nodes, ", "), timeout_s));
 }
 

@@ -20,7 +20,7 @@
 
 namespace nacre::cli {
 
-/// Who is at the keyboard; `unknown` where nobody says.
+/// The name of the account; `unknown` where there is none.
 std::string user_name();
 
 /// A run as found on disk.
@@ -48,7 +48,7 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
 /// Says which nodes did not acknowledge what was sent to them.
 void say_unanswered(const std::set<std::string>& nodes, double timeout_s);
 
-/// Who takes a payload (with blank header), by channel.
+/// Functions that take a payload (with blank header), by channel.
 using Takers = std::map<std::string, std::function<void(const std::string& payload)>, std::less<>>;
 
 /// Hands out what a node has received and sent so far on these channels, oldest first, in one reading of its journal;

@@ -1,4 +1,4 @@
-// nacre select: which samples of a gamut are worth a measurement.
+// Part of the command line (command.hpp): nacre select, the samples of a gamut that are worth a measurement.
 
 #include "select/select.hpp"
 
@@ -22,14 +22,14 @@ struct Options {
   bool json = false;
 };
 
-/// What is measured already: patterns, and the homogeneous line l1 as a game draws it.
-struct Measured {
+/// Patterns that are measured already, and the line of homogeneous mixtures (l1 of the thesis) as a game draws it.
+struct MeasuredDesigns {
   std::vector<pattern::Pattern> patterns;  ///< sorted
   std::vector<optimize::Performance> benchmark;
 };
 
-Measured read_measured(const std::string& folder) {
-  Measured measured;
+MeasuredDesigns read_measured(const std::string& folder) {
+  MeasuredDesigns measured;
   if (folder.empty()) return measured;
   const measurement::MeasurementSet set = measurement::read_measurement_set(folder);
   warn_about(set, folder);
@@ -42,17 +42,17 @@ Measured read_measured(const std::string& folder) {
   return measured;
 }
 
-std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Measured& measured) {
+std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const MeasuredDesigns& measured) {
   if (gamut.empty()) return "nothing to select: the gamut holds no sample";
   if (std::ranges::all_of(
           gamut, [&](const auto& each) { return std::ranges::binary_search(measured.patterns, each.pattern); }))
     return "nothing to select: every sample of the gamut was measured already";
-  return "nothing to select: no sample of the gamut lies above the benchmark lines";
+  return "nothing to select: no sample of the gamut is better than the homogeneous mixtures and the measured designs";
 }
 
 int select_samples(const Options& options) {
   const std::vector<explore::Evaluated> gamut = explore::read_gamut_csv(options.gamut);
-  const Measured measured = read_measured(options.measured);
+  const MeasuredDesigns measured = read_measured(options.measured);
   const auto selected = select::select_designs(gamut, measured.patterns, measured.benchmark, {.count = options.count});
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const select::Selected& one : selected) {
@@ -79,9 +79,12 @@ void add_select(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = add_command(app, action, "select", "Choose the samples of a gamut that are worth a measurement",
                                   options, select_samples);
-  command.add_option("GAMUT", options->gamut, "gamut.csv of nacre explore")->required();
-  command.add_option("--measured", options->measured, "Measurement set: patterns to stay away from, homogeneous line");
-  command.add_option("--count", options->count, "How many")->check(CLI::Range(1, 1000))->capture_default_str();
+  command.add_option("GAMUT", options->gamut, "gamut.csv, as nacre explore writes it")->required();
+  command.add_option("--measured", options->measured,
+                     "Measurement set: patterns that are measured already, and homogeneous mixtures to beat");
+  command.add_option("--count", options->count, "How many to choose")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -1,4 +1,4 @@
-// nacre simulate: the two testers on patterns, without farm and cache.
+// Part of the command line (command.hpp): nacre simulate, the two testers on patterns, without farm and cache.
 
 #include <algorithm>
 #include <filesystem>
@@ -41,8 +41,8 @@ struct Options {
   bool wants_films() const { return !frames.empty() || !film.empty(); }
 };
 
-/// A design with what the testers said about it.
-struct Specimen {
+/// A design and the results of its tests.
+struct SimulatedSpecimen {
   std::string argument;
   pattern::Design design;
   std::optional<Result<tester::ModulusResult>> modulus;
@@ -59,23 +59,24 @@ struct Specimen {
   }
 };
 
-std::vector<Specimen> read_specimens(const std::vector<std::string>& arguments) {
-  std::vector<Specimen> specimens;
+std::vector<SimulatedSpecimen> read_specimens(const std::vector<std::string>& arguments) {
+  std::vector<SimulatedSpecimen> specimens;
   for (const std::string& argument : arguments) {
-    Specimen& specimen = specimens.emplace_back();
+    SimulatedSpecimen& specimen = specimens.emplace_back();
     specimen.argument = argument;
     specimen.design = pattern::design_from_argument(argument);
     const pattern::Layout* layout = specimen.design.layout();
     if (layout == nullptr) continue;
     const auto symmetric = pattern::Pattern::from_layout(*layout);
-    const auto violation = symmetric ? pattern::violation(*symmetric) : "it lacks the eightfold symmetry of proposals";
+    const auto violation =
+        symmetric ? pattern::violation(*symmetric) : "it lacks the eightfold symmetry of nacre's proposals";
     if (violation) warn(fmt::format("{}: {}; it is simulated all the same", argument, *violation));
   }
   return specimens;
 }
 
 /// Pulls the specimen once more for its film, and writes what was asked for.
-void film_specimen(const Specimen& specimen, const tester::Simulation& simulation, const Options& options) {
+void film_specimen(const SimulatedSpecimen& specimen, const tester::Simulation& simulation, const Options& options) {
   const Result<film::Film> film = film::record_film(simulation, **specimen.toughness, options.frame_count);
   const std::string stem = file_stem(specimen.design.name());
   if (!film) throw InputError::format("{}: no film: {}", specimen.argument, film.error().message);
@@ -84,25 +85,26 @@ void film_specimen(const Specimen& specimen, const tester::Simulation& simulatio
 }
 
 /// Whether no specimen before it has the same design: files are named after designs, and written once.
-bool is_first_of_its_design(const Specimen& specimen, const std::vector<Specimen>& specimens) {
-  return &*std::ranges::find(specimens, specimen.design, &Specimen::design) == &specimen;
+bool is_first_of_its_design(const SimulatedSpecimen& specimen, const std::vector<SimulatedSpecimen>& specimens) {
+  return &*std::ranges::find(specimens, specimen.design, &SimulatedSpecimen::design) == &specimen;
 }
 
-void run_tests(std::vector<Specimen>& specimens, const Options& options, const material::ParameterSet& parameters) {
-  struct Task {
-    Specimen* specimen;
+void run_tests(std::vector<SimulatedSpecimen>& specimens, const Options& options,
+               const material::ParameterSet& parameters) {
+  struct SpecimenTest {
+    SimulatedSpecimen* specimen;
     tester::TestKind test;
   };
-  std::vector<Task> tasks;  // the long tests first
+  std::vector<SpecimenTest> tasks;  // the long tests first
   for (const auto test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
     if (options.test != "both" && options.test != tester::to_string(test)) continue;
-    for (Specimen& specimen : specimens) tasks.push_back({&specimen, test});
+    for (SimulatedSpecimen& specimen : specimens) tasks.push_back({&specimen, test});
   }
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
   Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
   parallel_for(static_cast<int>(tasks.size()), [&](int i) {
-    const Task& task = tasks[i];
-    Specimen& specimen = *task.specimen;
+    const SpecimenTest& task = tasks[i];
+    SimulatedSpecimen& specimen = *task.specimen;
     const tester::Simulation simulation{specimen.design, parameters, {}, fidelity};
     if (task.test == tester::TestKind::modulus) {
       specimen.modulus = tester::test_modulus(simulation);
@@ -147,7 +149,7 @@ nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mec
   return entry;
 }
 
-nlohmann::ordered_json to_json(const Specimen& specimen) {
+nlohmann::ordered_json to_json(const SimulatedSpecimen& specimen) {
   nlohmann::ordered_json entry = {{"pattern", specimen.argument}, {"key", specimen.design.name()}};
   if (const std::string failure = specimen.failure(); !failure.empty()) {
     entry["error"] = failure;
@@ -172,10 +174,10 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
   return entry;
 }
 
-void print_table(const std::vector<Specimen>& specimens) {
-  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>10}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa", "strain",
-             "end");
-  for (const Specimen& specimen : specimens) {
+void print_table(const std::vector<SimulatedSpecimen>& specimens) {
+  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>14}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa",
+             "failure strain", "how the test ended");
+  for (const SimulatedSpecimen& specimen : specimens) {
     const std::string name = specimen.argument.size() <= 24 ? specimen.argument : specimen.design.name().substr(0, 24);
     if (const std::string failure = specimen.failure(); !failure.empty()) {
       fmt::print("{:<24} {}\n", name, failure);
@@ -184,15 +186,15 @@ void print_table(const std::vector<Specimen>& specimens) {
     fmt::print("{:<24} {:>10}", name, specimen.modulus ? shown(1e-9 * (*specimen.modulus)->modulus_pa) : "");
     if (specimen.toughness) {
       const tester::ToughnessResult& result = **specimen.toughness;
-      fmt::print(" {:>10} {:>10.3f} {:>10.4f}  {} after {} steps", shown(1e-6 * result.toughness_pa),
+      fmt::print(" {:>10} {:>10.3f} {:>14.4f}  {} after {} steps", shown(1e-6 * result.toughness_pa),
                  1e-6 * result.peak_stress_pa, result.failure_strain, tester::to_string(result.end), result.steps);
     }
     fmt::print("\n");
   }
 }
 
-void write_files(const std::vector<Specimen>& specimens, const Options& options) {
-  for (const Specimen& specimen : specimens) {
+void write_files(const std::vector<SimulatedSpecimen>& specimens, const Options& options) {
+  for (const SimulatedSpecimen& specimen : specimens) {
     if (!specimen.toughness || !*specimen.toughness) continue;
     const std::string stem = file_stem(specimen.design.name());
     if (!options.curves.empty()) {
@@ -202,7 +204,7 @@ void write_files(const std::vector<Specimen>& specimens, const Options& options)
   }
 }
 
-/// Before anything is computed: a GIF shows one specimen, and what is to be written can be.
+/// Before anything is computed: a GIF shows one specimen, and the outputs can be written.
 void check_output_options(const Options& options) {
   if ((options.wants_films() || !options.curves.empty()) && options.test == "modulus")
     throw InputError("--curves, --frames and --film show the toughness test: --test modulus does not run it");
@@ -216,14 +218,14 @@ void check_output_options(const Options& options) {
 }
 
 int simulate(const Options& options) {
-  std::vector<Specimen> specimens = read_specimens(options.patterns);
+  std::vector<SimulatedSpecimen> specimens = read_specimens(options.patterns);
   const material::ParameterSet parameters = parameters_from_option(options.params, material::default_parameters());
   check_output_options(options);
   run_tests(specimens, options, parameters);
   write_files(specimens, options);
   bool any_succeeded = false;
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
-  for (const Specimen& specimen : specimens) {
+  for (const SimulatedSpecimen& specimen : specimens) {
     any_succeeded = any_succeeded || specimen.failure().empty();
     document.push_back(to_json(specimen));
   }
@@ -235,21 +237,22 @@ int simulate(const Options& options) {
 
 void add_simulate(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      add_command(app, action, "simulate", "Simulate patterns in the two virtual testers", options, simulate);
+  CLI::App& command = add_command(app, action, "simulate",
+                                  "Simulate the stiffness test and the toughness test of patterns", options, simulate);
   command.add_option("PATTERN", options->patterns, kDesignWords)->required();
-  command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
-  command.add_option("--test", options->test, "Which test")
+  command.add_option("--params", options->params, "Parameter file of the model; default: the built-in parameters");
+  command.add_option("--test", options->test, "Which test to simulate")
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
   add_fidelity(command, options->fidelity)->capture_default_str();
-  command.add_option("--curves", options->curves, "Folder for the stress-strain curves, KEY.csv");
-  command.add_option("--frames", options->frames, "Folder for fracture films, KEY.film (docs/FORMATS.md)");
-  command.add_option("--film", options->film, "Film of one specimen as a GIF, or folder for pictures KEY-NNNN.png");
-  command.add_option("--film-width", options->film_width, "Width of the film's pictures in points")
+  command.add_option("--curves", options->curves, "Folder for the stress-strain curves, one KEY.csv each");
+  command.add_option("--frames", options->frames,
+                     "Folder for fracture films as data, one KEY.film each (docs/FORMATS.md)");
+  command.add_option("--film", options->film, "GIF that shows one specimen break, or folder for pictures KEY-NNNN.png");
+  command.add_option("--film-width", options->film_width, "Width of the film's pictures in pixels")
       ->check(CLI::Range(kNarrowestPicture, kWidestPicture))
       ->capture_default_str();
-  command.add_option("--frame-count", options->frame_count, "Frames per film")
+  command.add_option("--frame-count", options->frame_count, "Pictures per film")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -1,5 +1,5 @@
 #pragma once
-// What a person should look at again before a specimen counts in a game.
+// Doubts about specimens, for a person to look at before they count in a game.
 
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Specimens and judgements on them as messages, and what a run has of them already.
+// Specimens and reviews of them as messages, and those that a run has already.
 
 #include <map>
 #include <optional>
@@ -36,7 +36,7 @@ std::optional<std::string> against_measurement(const HeldMeasurements& held, con
 /// All that is held, by specimen: what the validation agent has, else what reached the analyser alone.
 std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run);
 
-/// The highest revision of each specimen's reviews so far: a judgement of one more wins.
+/// The highest revision of each specimen's reviews so far: a review of one more wins.
 std::map<std::string, int> highest_revisions(const RunAccess& run);
 
 }  // namespace nacre::cli

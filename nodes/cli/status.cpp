@@ -1,4 +1,4 @@
-// nacre status: what the nodes of a run say of themselves.
+// Part of the command line (command.hpp): nacre status, what the nodes of a run say of themselves.
 
 #include <unistd.h>
 
@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "nacre/node_status_t.hpp"
@@ -65,10 +66,12 @@ void print_table(const RunAccess& run, const Statuses& statuses) {
                                  .problem = s.last_problem};
     fmt::print("{}\n", runtime::node_line(view, columns > 0 ? columns : 200));
     fmt::print(
-        "{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, dropped by the system {}\n",
+        "{:18}messages: {} received, {} published, {} sent again, {} repeated, {} rejected, {} lost, {} dropped by the "
+        "system\n",
         "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.dropped);
-    fmt::print("{:18}queues: {} to read, {} to acknowledge, {} waiting for ACK, {} to compute; journal {:.1f} MB\n", "",
-               s.queued, s.owed, s.unacknowledged, s.computing, 1e-6 * static_cast<double>(s.journal_bytes));
+    fmt::print(
+        "{:18}queues: {} to read, {} to acknowledge, {} not yet acknowledged, {} to compute; journal {:.1f} MB\n", "",
+        s.queued, s.owed, s.unacknowledged, s.computing, 1e-6 * static_cast<double>(s.journal_bytes));
     if (!s.work.empty()) fmt::print("{:18}{}\n", "", s.work);
   }
 }
@@ -84,7 +87,10 @@ int show_status(const Options& options) {
     print_table(run, statuses);
   }
   if (statuses.empty())
-    remark(fmt::format("no node of {} spoke within {} s: the run does not play", options.run, options.seconds));
+    remark(
+        fmt::format("the run does not play: none of its nodes spoke within {} s; `nacre launch --resume {}` goes on "
+                    "with it",
+                    options.seconds, shell_word(options.run)));
   return statuses.empty() ? 1 : 0;
 }
 
@@ -92,9 +98,10 @@ int show_status(const Options& options) {
 
 void add_status(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "status", "What the nodes of a run are doing", options, show_status);
+  CLI::App& command =
+      add_command(app, action, "status", "Show what the nodes of a run are doing", options, show_status);
   add_run_option(command, options->run);
-  command.add_option("--seconds", options->seconds, "How long to listen")
+  command.add_option("--seconds", options->seconds, "How many seconds to listen")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

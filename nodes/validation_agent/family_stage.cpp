@@ -11,6 +11,7 @@
 #include "game/model.hpp"
 #include "game/standings.hpp"
 #include "select/select.hpp"
+#include "sysid/errors.hpp"
 #include "sysid/objective.hpp"
 #include "validation_agent/family_work.hpp"
 

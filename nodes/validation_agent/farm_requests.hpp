@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
+#include "sysid/wanted_evaluation.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::validation_agent {

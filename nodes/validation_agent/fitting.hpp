@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "sysid/base_calibration.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::validation_agent {

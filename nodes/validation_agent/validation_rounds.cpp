@@ -11,6 +11,8 @@
 #include "game/model.hpp"
 #include "game/standings.hpp"
 #include "runtime/round_history.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/provenance.hpp"
 #include "validation_agent/validation_core.hpp"
 #include "wire/schema.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sealed trials: printed and measured by the virtual laboratory, diagnosed by `nacre diagnose` as a program of its own,
+// Blind trials: printed and measured by the virtual laboratory, diagnosed by `nacre diagnose` as a program of its own,
 // opened for scoring.
 
 #include <gtest/gtest.h>
@@ -67,12 +67,12 @@ inline std::string laboratory_file(int seed, const std::string& fidelity, const 
   return toml;
 }
 
-struct BlindTrial {
+struct OpenedTrial {
   nlohmann::json diagnosis;
   laboratory::Truth truth;
 };
 
-using Questions = std::function<std::vector<laboratory::Experiment>(std::uint64_t seed)>;
+using PlannedExperiments = std::function<std::vector<laboratory::Experiment>(std::uint64_t seed)>;
 
 /// In which batch a replicate is printed, both counted from 0.
 using BatchOf = std::function<int(const laboratory::Experiment&, int replicate)>;
@@ -85,11 +85,11 @@ inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::str
 
 /// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and
 /// the opened truth.
-inline BlindTrial run_trial(
-    const std::string& laboratory, const Questions& experiments, const std::string& fidelity,
+inline OpenedTrial run_trial(
+    const std::string& laboratory, const PlannedExperiments& experiments, const std::string& fidelity,
     const BatchOf& batch_of = [](const laboratory::Experiment&, int replicate) { return replicate; }) {
   const Scratch scratch;
-  BlindTrial trial;
+  OpenedTrial trial;
   trial.truth = laboratory::parse_laboratory(laboratory, "trial");
   std::vector<measurement::SpecimenRecord> records;
   int print_order = 0;
@@ -112,7 +112,7 @@ inline BlindTrial run_trial(
 
 /// The hidden effect alone is named, its size lies within `tolerance` (relative), and the extended model predicts
 /// held-out patterns better.
-inline void expect_found(const BlindTrial& trial, const std::string& effect, double value, double tolerance) {
+inline void expect_found(const OpenedTrial& trial, const std::string& effect, double value, double tolerance) {
   const nlohmann::json& d = trial.diagnosis;
   ASSERT_EQ(d["verdict"], "named") << d["summary"] << d["candidates"].dump(1);
   ASSERT_EQ(d["effects"].size(), 1u) << d["summary"];

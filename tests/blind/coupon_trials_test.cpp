@@ -1,5 +1,5 @@
-// Blind trials of homogeneous coupons pulled at two rates. The same hidden cause, printed so that two causes look
-// alike, and printed so that they do not.
+// Blind trials of homogeneous coupons pulled at two rates. The same hidden cause, printed so that two effects are
+// collinear, and printed so that they are not.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace nacre::blind {
 namespace {
 
-/// As slow as creep and as fast as an impact: a relaxation in between leaves no trace in the shape of either curve.
+/// As slow as creep and as fast as an impact: a relaxation in between has no signature in the shape of either curve.
 constexpr double kSlow = 1e-6, kFast = 10.0;
 
 std::vector<laboratory::Experiment> coupons(std::uint64_t) {
@@ -34,17 +34,17 @@ std::string laboratory(int seed, const std::string& effect, const std::string& v
   return laboratory_file(seed, "tiny", "modulus = 0.01\ntoughness = 0.01\nstrain = 0.002\n", effect, value);
 }
 
-std::vector<std::string> possible(const BlindTrial& trial) {
+std::vector<std::string> possible(const OpenedTrial& trial) {
   std::vector<std::string> names;
   for (const auto& model : trial.diagnosis["possible"]) names.push_back(model[0]);
   std::sort(names.begin(), names.end());
   return names;
 }
 
-// All fast coupons come from the second batch: batches that drift and materials that answer faster pulls more stiffly
-// leave the same traces.
-TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
-  const BlindTrial trial =
+// All fast coupons come from the second batch: batches that drift and materials that respond more stiffly to faster
+// pulls have the same signature.
+TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeDistinguished) {
+  const OpenedTrial trial =
       run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny",
                 [](const auto& experiment, int) { return experiment.conditions.strain_rate_per_s == kFast ? 1 : 0; });
   EXPECT_EQ(trial.diagnosis["verdict"], "ambiguous") << trial.diagnosis["summary"];
@@ -57,8 +57,8 @@ TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
 
 // The same drift with both rates in both batches. Means over both batches do not gain by it: replicates show it.
 TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
-  const BlindTrial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny",
-                                     [](const auto&, int replicate) { return replicate % 2; });
+  const OpenedTrial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny",
+                                      [](const auto&, int replicate) { return replicate % 2; });
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");
@@ -74,7 +74,7 @@ std::vector<laboratory::Experiment> unloaded_coupons(std::uint64_t seed) {
 // As a diagnosis orders them. The machine records other strains than the coupon feels, on the way back too.
 TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
   for (const auto& [name, value] : {std::pair{"toe_slack", 0.004}, {"machine_compliance", 2.5e-10}}) {
-    const BlindTrial trial = run_trial(laboratory(54, name, fmt::format("{}", value)), unloaded_coupons, "tiny");
+    const OpenedTrial trial = run_trial(laboratory(54, name, fmt::format("{}", value)), unloaded_coupons, "tiny");
     ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
     ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
     EXPECT_EQ(trial.diagnosis["effects"][0]["name"], name);
@@ -86,7 +86,7 @@ TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
 
 // Alone neither explains the curves: slack lies before the specimen carries, flow at its end.
 TEST(BlindCouponTrials, SlackAndFlowAtOnceAreBothNamed) {
-  const BlindTrial trial = run_trial(
+  const OpenedTrial trial = run_trial(
       laboratory(53, "rigid_yield", "4.8e7") + "[[effect]]\nname = \"toe_slack\"\nvalue = 0.007\n", coupons, "tiny");
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   std::map<std::string, double> sizes;

@@ -1,14 +1,14 @@
-// Measurements from elements of half the size: what a diagnosis has to call numerics and not an effect.
+// Measurements on a refined mesh: a diagnosis has to take them for discretisation error and not for an effect.
 
 #include <gtest/gtest.h>
 
 #include "../unit/diagnosis/synthetic_set.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// Specimens on elements of half the size: what the diagnosis has to call numerics.
+/// Specimens on elements of half the size.
 Diagnosis diagnose_on_finer_elements(const material::ParameterSet& truth) {
   SyntheticSet set;
   set.patterns = 14;
@@ -27,7 +27,7 @@ TEST(FinerElements, OfOneTruthAreNoEffect) {
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
 }
 
-// With layouts taken as independent the size came out 39 % too small.
+// With layouts taken as independent the size was estimated 39 % too small.
 TEST(FinerElements, LeaveDropletMixingItsSize) {
   material::ParameterSet truth = synthetic_truth();
   truth.extensions["droplet_mixing"] = {0.6};
@@ -40,8 +40,8 @@ TEST(FinerElements, LeaveDropletMixingItsSize) {
   EXPECT_LT(diagnosis.gain->held_out_error_after, diagnosis.gain->held_out_error_before);
 }
 
-// Edges of grown regions fall between the elements otherwise at every size: 0.24 and 0.30 pixels explain these moduli
-// nearly alike. With the numerics of the base's fit the size was 0.240 (0.224 to 0.256).
+// Edges of grown regions fall between the elements differently at every size: 0.24 and 0.30 pixels explain these moduli
+// nearly equally well. With the discretisation error of the base's fit the size was 0.240 (0.224 to 0.256).
 TEST(FinerElements, LeaveGrowthItsSize) {
   material::ParameterSet truth = material::default_parameters();
   truth.modulus = {.e_tb_pa = 0.99e6, .e_vw_pa = 2.63e9, .e_if_pa = 6e8, .nu_tb = 0.42, .nu_vw = 0.25, .nu_if = 0.32};

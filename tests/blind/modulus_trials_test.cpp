@@ -1,5 +1,5 @@
-// Blind trials of the modulus side. The virtual laboratory, with numerics and constants of its own, hides an effect in
-// a measurement set; `nacre diagnose` sees the set alone; the answer is opened for scoring.
+// Blind trials of the modulus side. The virtual laboratory, with a discretisation and constants of its own, hides an
+// effect in a measurement set; `nacre diagnose` sees the set alone; the truth is opened for scoring.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 /// Fourteen patterns, turned twins of six, two checkerboards.
 std::vector<laboratory::Experiment> modulus_experiments(std::uint64_t seed) { return printed(seed, 14, 6, {2, 5}); }
 
-BlindTrial play(const std::string& laboratory) { return run_trial(laboratory, modulus_experiments, "full"); }
+OpenedTrial play(const std::string& laboratory) { return run_trial(laboratory, modulus_experiments, "full"); }
 
 std::string laboratory(int seed, const std::string& effect = "", const std::string& value = "") {
   return laboratory_file(seed, "full", "modulus = 0.01\n", effect, value);
@@ -19,7 +19,7 @@ std::string laboratory(int seed, const std::string& effect = "", const std::stri
 
 TEST(BlindModulusTrials, NothingHiddenIsBaseSufficient) {
   for (const int seed : {11, 12}) {
-    const BlindTrial trial = play(laboratory(seed));
+    const OpenedTrial trial = play(laboratory(seed));
     EXPECT_EQ(trial.diagnosis["verdict"], "base_sufficient") << trial.diagnosis.dump(2);
   }
 }
@@ -28,15 +28,15 @@ TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) {
   expect_found(play(laboratory(13, "interface_anisotropy", "0.4")), "interface_anisotropy", 0.4, 0.25);
 }
 
-// What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
-// too small (docs/studies/discretisation-floor.md).
-// The set that the first page sends people to.
+// The set that README sends people to.
 TEST(BlindModulusTrials, TheExampleIsDiagnosedAsItsReadmeSays) {
-  BlindTrial example;
+  OpenedTrial example;
   example.diagnosis = diagnosed(std::filesystem::path(NACRE_SOURCE_DIR) / "data/examples/turned", "preview");
   expect_found(example, "interface_anisotropy", 0.45, 0.1);
 }
 
+// The discretisation error lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
+// too small (docs/studies/discretisation-floor.md).
 TEST(BlindModulusTrials, DropletMixingIsFound) {
   expect_found(play(laboratory(14, "droplet_mixing", "0.6")), "droplet_mixing", 0.6, 0.25);
 }
@@ -45,15 +45,15 @@ TEST(BlindModulusTrials, MachineComplianceIsFound) {
   expect_found(play(laboratory(15, "machine_compliance", "2e-10")), "machine_compliance", 2e-10, 0.25);
 }
 
-TEST(BlindModulusTrials, AnEffectOutsideTheLibraryIsUnexplained) {
-  const BlindTrial trial = play(laboratory(16, "diagonal_debonding", "0.9"));
+TEST(BlindModulusTrials, AnUnmodelledCauseIsUnexplained) {
+  const OpenedTrial trial = play(laboratory(16, "diagonal_debonding", "0.9"));
   EXPECT_EQ(trial.diagnosis["verdict"], "unexplained") << trial.diagnosis.dump(2);
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
 }
 
 // Material that is softer across the printer's passes resembles anisotropic interfaces (docs/decisions/0022).
 TEST(BlindModulusTrials, ACauseThatActsEvenlyOnTurnedSpecimensIsUnexplained) {
-  const BlindTrial trial = play(laboratory(17, "bulk_anisotropy", "0.05"));
+  const OpenedTrial trial = play(laboratory(17, "bulk_anisotropy", "0.05"));
   EXPECT_EQ(trial.diagnosis["verdict"], "unexplained") << trial.diagnosis.dump(2);
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
 }

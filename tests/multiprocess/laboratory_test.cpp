@@ -193,7 +193,7 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
   EXPECT_EQ(states(person.run()).at(proposed), "pending");
   EXPECT_EQ(states(person.run()).at("soft"), "approved");
-  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  pending "));
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  waits for approval "));
   person.decide({"approve", proposed, "--reject", "--why", "islands"});
   EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  rejected "));
   EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
@@ -209,7 +209,7 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
     ASSERT_EQ(run_nacre(arguments).status, 0);
   };
   fabricate_one({"checkerboard:5", "--out", earlier});
-  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimens printed"));
+  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimen printed"));
   const Outcome printed =
       run_nacre({"fabricate", "--orders", "--run", run, "--out", job, "--dpi", "100,100,100", "--json"}, 120.0);
   ASSERT_EQ(printed.status, 0) << printed.err;

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 constexpr int kFree = pattern::kFreePixels;
 
 /// Up to `count` rows, chosen at random.
-optimize::Observations part_of(const optimize::Observations& all, int count, RandomStream& random) {
+optimize::RegressionData part_of(const optimize::RegressionData& all, int count, RandomStream& random) {
   const auto size = static_cast<int>(all.values.size());
   if (size <= count) return all;
   std::vector<int> rows(size);
@@ -23,7 +23,7 @@ optimize::Observations part_of(const optimize::Observations& all, int count, Ran
   for (int i = 0; i < count; ++i) {
     std::swap(rows[i], rows[i + random.index(size - i)]);
   }
-  optimize::Observations part{MatrixXd(count, all.inputs.cols()), VectorXd(count), VectorXd::Zero(count)};
+  optimize::RegressionData part{MatrixXd(count, all.inputs.cols()), VectorXd(count), VectorXd::Zero(count)};
   for (int i = 0; i < count; ++i) {
     part.inputs.row(i) = all.inputs.row(rows[i]);
     part.values[i] = all.values[rows[i]];
@@ -35,7 +35,7 @@ ObjectiveModel fit_objective(const MatrixXd& points, const VectorXd& values, Ran
   const double mean = values.mean();
   const double variance = (values.array() - mean).square().mean();
   const double deviation = variance > 0.0 ? std::sqrt(variance) : 1.0;
-  const optimize::Observations all{points, (values.array() - mean) / deviation, VectorXd::Zero(values.size())};
+  const optimize::RegressionData all{points, (values.array() - mean) / deviation, VectorXd::Zero(values.size())};
   const auto kernel = optimize::fit_kernel(part_of(all, kCubeKernelSamples, random), 0, random.bits());
   return {mean, deviation, optimize::GaussianProcess(all, kernel)};
 }

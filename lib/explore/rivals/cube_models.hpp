@@ -1,5 +1,5 @@
 #pragma once
-// What the rivals from Bayesian optimisation believe: a Gaussian process per objective over the free pixels as
+// The surrogate of the rivals from Bayesian optimisation: a Gaussian process per objective over the free pixels as
 // coordinates, with one length scale for each.
 
 #include <Eigen/Dense>

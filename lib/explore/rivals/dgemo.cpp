@@ -58,7 +58,7 @@ std::vector<std::vector<double>> family_prices(const std::vector<std::vector<Fro
   return prices;
 }
 
-/// The points of every cell, those of the family that stands for it first of all.
+/// The points of every cell, those of the family that represents it first of all.
 std::vector<FrontPoint> sparse_front(const std::vector<std::vector<FrontPoint>>& cells) {
   std::map<int, int> label_of;
   for (const auto& cell : cells) {
@@ -104,7 +104,7 @@ std::vector<CandidatePattern> rounded(const std::vector<FrontPoint>& points, con
   return candidates;
 }
 
-/// The largest growth of every family in turn; when none is left, all families begin again.
+/// The largest growth of every family in turn; when none is left, all families restart.
 std::vector<pattern::Pattern> choose(std::vector<CandidatePattern> candidates, const BatchRequest& batch_request) {
   std::vector<Evaluated> front(batch_request.evaluated);
   std::vector<pattern::Pattern> batch;

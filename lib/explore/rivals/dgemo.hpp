@@ -1,4 +1,5 @@
 #pragma once
+// DGEMO: diversity-guided multi-objective Bayesian optimisation (NeurIPS 2020).
 
 #include <vector>
 

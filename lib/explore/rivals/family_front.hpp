@@ -1,5 +1,6 @@
 #pragma once
-// Which family stands for which stretch of a two-objective front (the sparse approximation of DGEMO).
+// Assignment of families to cells of a two-objective front (the sparse approximation of DGEMO): a shortest path over
+// the chain of cells.
 
 #include <vector>
 

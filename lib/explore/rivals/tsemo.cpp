@@ -46,7 +46,7 @@ class DrawnFunction {
       phases_[m] = random.uniform(0.0, 2.0 * std::numbers::pi);
       amplitudes_[m] = amplitude * random.normal();
     }
-    optimize::Observations missing = model.process.observations();
+    optimize::RegressionData missing = model.process.observations();
     missing.values -= prior(missing.inputs);
     for (Index i = 0; i < missing.values.size(); ++i) missing.values[i] -= kernel.noise_deviation * random.normal();
     // The process centres its values; what it takes off comes back with its mean.

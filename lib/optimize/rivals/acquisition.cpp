@@ -57,7 +57,8 @@ void PenalisedImprovement::add_pending(const Eigen::VectorXd& at) { pending_.pus
 
 double PenalisedImprovement::operator()(const Eigen::VectorXd& at) const { return (*this)(at, process_.predict(at)); }
 
-double PenalisedImprovement::operator()(const Eigen::VectorXd& at, const GaussianProcess::Prediction& predicted) const {
+double PenalisedImprovement::operator()(const Eigen::VectorXd& at,
+                                        const GaussianProcess::PosteriorValue& predicted) const {
   const double deviation = std::max(predicted.deviation, kLeastDeviation);
   double value = std::log(deviation) + log_expected_improvement((threshold_ - predicted.mean) / deviation);
   for (const Pending& other : pending_) {

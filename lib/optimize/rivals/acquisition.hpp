@@ -1,5 +1,5 @@
 #pragma once
-// What a point is worth to Bayesian optimisation.
+// The acquisition function of Bayesian optimisation.
 
 #include <vector>
 
@@ -23,12 +23,12 @@ class PenalisedImprovement {
   void add_pending(const Eigen::VectorXd& at);
   /// Logarithm of the penalised expected improvement.
   double operator()(const Eigen::VectorXd& at) const;
-  double operator()(const Eigen::VectorXd& at, const GaussianProcess::Prediction& predicted) const;
+  double operator()(const Eigen::VectorXd& at, const GaussianProcess::PosteriorValue& predicted) const;
 
  private:
   struct Pending {
     Eigen::VectorXd at;
-    GaussianProcess::Prediction predicted;
+    GaussianProcess::PosteriorValue predicted;
   };
   const GaussianProcess& process_;
   double threshold_, smallest_, lipschitz_;

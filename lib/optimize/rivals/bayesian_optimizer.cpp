@@ -65,7 +65,7 @@ class BayesianOptimizer final : public RecordedOptimizer {
     return points;
   }
 
-  Observations observations(int count) const {
+  RegressionData observations(int count) const {
     std::vector<Point> known;
     const std::vector<double> value = values(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) known.push_back(evaluations_[i].point);

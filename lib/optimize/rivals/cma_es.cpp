@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFirstStep = 0.2;
-constexpr double kSmallestStep = 1e-5;  // of the whole distribution, before the search begins anew
+constexpr double kSmallestStep = 1e-5;  // of the whole distribution, before the search restarts
 constexpr double kOutside =
     1.0;  // cost per squared distance from the cube, in units of the generation's spread of values
 

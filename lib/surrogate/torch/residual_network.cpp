@@ -1,4 +1,4 @@
-// The networks of network.hpp by libtorch; the only file that includes it.
+// Part of Network (network.hpp): the networks by libtorch; the only file that includes it.
 
 #include <malloc.h>
 #include <torch/torch.h>

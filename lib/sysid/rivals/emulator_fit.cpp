@@ -1,3 +1,5 @@
+#include "sysid/rivals/emulator_fit.hpp"
+
 #include <algorithm>
 
 #include "sysid/emulator.hpp"
@@ -38,7 +40,7 @@ class EmulatorFit final : public EtaFit {
     emulator_.learn(trials_, best_);
     predicted_.set_base(trials_[best_]);
     for (int k = 0; k < count; ++k) {
-      // From greedy to curious: the later points of a batch look where the emulator knows least.
+      // From greedy to curious: the later points of a batch explore where the emulator is least certain.
       points.push_back(best_predicted(0.5 * k));
       emulator_.add_pending(points.back());
     }

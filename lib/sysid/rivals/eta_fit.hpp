@@ -1,6 +1,6 @@
 #pragma once
-// What both searches for eta by its objective share: where they begin, what a trial costs, and what the emulator tells
-// of their best point.
+// Common part of the two searches for eta by its objective: initial guesses, cost of a trial, and the emulator's
+// interval of the best point.
 
 #include <algorithm>
 #include <utility>
@@ -26,7 +26,7 @@ class EtaFit : public RecordedFit {
  protected:
   static constexpr double kPull = 0.01;  ///< cost of moving every parameter across its whole range
 
-  /// `spans` as spans_of() gives them; `others`: points to begin with beside the start.
+  /// `spans` as spans_of() gives them; `others`: further initial guesses.
   EtaFit(FitData data, const FitSettings& settings, double pull, std::vector<double> spans, std::vector<Point> others,
          bool poisson_searched)
       : RecordedFit(std::move(data), settings, pull),

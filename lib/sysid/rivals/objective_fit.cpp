@@ -1,3 +1,5 @@
+#include "sysid/rivals/objective_fit.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -47,7 +47,7 @@ double area_between_grids(const GridCurve& a, const GridCurve& b, double stress_
 
 WarpedObjective::WarpedObjective(const FitData& data) {
   for (std::size_t i = 0; i < data.measured.size(); ++i) {
-    Design design;
+    WarpedDesign design;
     design.weight = data.weights[i];
     design.measured_pa = data.measured[i].toughness_pa;
     design.measured = on_grid(data.measured[i].representative_curve);
@@ -68,7 +68,7 @@ void WarpedObjective::set_base(const FitTrial& trial) {
 double WarpedObjective::operator()(std::span<const FeatureChange> changes) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < designs_.size(); ++i) {
-    const Design& design = designs_[i];
+    const WarpedDesign& design = designs_[i];
     const bool has_curve = !design.measured.stress_pa.empty();
     double misfit = has_curve ? 2.0 : 1.0;
     if (!design.base_failed) {

@@ -24,12 +24,12 @@ class WarpedObjective {
   double operator()(std::span<const FeatureChange> changes) const;
 
  private:
-  struct Design {
+  struct WarpedDesign {
     double weight = 0.0, measured_pa = 0.0, base_pa = 0.0;
     bool base_failed = true;
     GridCurve measured, base;  ///< empty when there is none
   };
-  std::vector<Design> designs_;
+  std::vector<WarpedDesign> designs_;
   double weight_sum_ = 0.0;
 };
 

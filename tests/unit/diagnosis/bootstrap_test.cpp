@@ -8,7 +8,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Moduli of layouts and pulled coupons, with a direction along which the numerics move all moduli.
+/// Moduli of layouts and pulled coupons, with a direction along which the discretisation moves all moduli.
 Observations two_tests() {
   SyntheticSet set;
   set.patterns = 8;

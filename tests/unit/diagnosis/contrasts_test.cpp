@@ -36,9 +36,9 @@ TEST(EvenDirections, AreTheSameOnLayoutsAndCouponsAndNothingOnStrains) {
   const ContrastDirection turned = even_directions(observations).front();
   double upright = 0.0;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
+    const DataRow& row = observations.rows[i];
     const bool scales =
-        row.probe == Probe::mean && (row.feature == Feature::log_modulus || is_curve_stress(row.feature));
+        row.kind == RowKind::mean && (row.feature == Feature::log_modulus || is_curve_stress(row.feature));
     if (!scales) {
       EXPECT_EQ(turned.values[i], 0.0) << to_string(row.feature);
       continue;

@@ -1,6 +1,6 @@
-// The diagnosis on data of the tester's own numerics. (tests/blind does the same against the virtual laboratory.)
+// The diagnosis on data of the tester's own discretisation. (tests/blind does the same against the virtual laboratory.)
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/json.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/procedure.hpp"
 #include "material/effect_library.hpp"
@@ -27,7 +28,7 @@ DiagnosisSettings tiny_settings() {
   return settings;
 }
 
-/// With none of an effect a model is the base: no fit of one may end with more than the base leaves.
+/// At size 0 an effect is the base: no fit of one may end with a larger chi squared.
 Diagnosis with_levels_checked(Diagnosis diagnosis) {
   for (const CandidateEffect& candidate : diagnosis.candidates) EXPECT_GE(candidate.statistic, -0.02) << candidate.name;
   return diagnosis;
@@ -61,7 +62,7 @@ TEST(Diagnosis, DataOfTheBaseModelAreBaseSufficient) {
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
   EXPECT_TRUE(diagnosis.effects.empty());
   EXPECT_FALSE(diagnosis.gain);
-  // What is not found is said to be smaller than what would have shown.
+  // An effect that is not found is smaller than its smallest visible size.
   for (const CandidateEffect& candidate : diagnosis.candidates) {
     if (candidate.status == "not_applicable") continue;
     const material::EffectParameter& parameter = material::find_effect(candidate.name)->parameters.front();
@@ -90,7 +91,7 @@ TEST(Diagnosis, AnotherInkIsNoMisfitInRangesOfItsOwn) {
   const Diagnosis diagnosis = diagnose(specimens, settings);
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
   EXPECT_EQ(diagnosis.summary.find("ranges of their own"), std::string::npos) << diagnosis.summary;
-  EXPECT_NE(procedure_hash(settings), hash) << "another question";
+  EXPECT_NE(procedure_hash(settings), hash) << "another procedure";
 }
 
 TEST(Diagnosis, InterfaceAnisotropyIsNamedAndTheJsonHasTheFieldsOfTheFormat) {
@@ -112,7 +113,7 @@ TEST(Diagnosis, DropletMixingIsNamed) {
 TEST(Diagnosis, MachineComplianceIsNamed) {
   const Diagnosis diagnosis = diagnose_effect("machine_compliance", 2e-10);
   expect_named(diagnosis, "machine_compliance", 2e-10, 0.6e-10);
-  // The stiffness of materials that nobody has pulled could be anything: a coupon of them tells no spring.
+  // The stiffness of materials without coupons is unknown: a coupon of them does not determine the spring.
   ASSERT_FALSE(diagnosis.next_experiments.empty());
   for (const NextExperiment& next : diagnosis.next_experiments) EXPECT_TRUE(next.design.layout()) << next.reason;
 }
@@ -143,8 +144,8 @@ TEST(Diagnosis, ReplicatesThatDoNotAgreeAreCautionedOfAlsoWhereNothingIsFound) {
   EXPECT_NE(diagnosis.summary.find("replicates do not agree"), std::string::npos) << diagnosis.summary;
 }
 
-// Alone, rigid_overprint explains more of these data than droplet_mixing does; beside the machine it is the other way.
-TEST(Diagnosis, TwoEffectsAreNamedAlsoWhereALookAlikeLeadsAlone) {
+// Alone, rigid_overprint explains more of these data than droplet_mixing does; with the machine it is the other way.
+TEST(Diagnosis, TwoEffectsAreNamedAlsoWhereACollinearEffectLeadsAlone) {
   material::ParameterSet truth = synthetic_truth();
   truth.extensions["droplet_mixing"] = {0.8};
   truth.extensions["machine_compliance"] = {3e-10};
@@ -185,9 +186,9 @@ TEST(Diagnosis, AnErrorOfTheLoadCellIsInvisibleAndNothingIsNamed) {
   EXPECT_GT(gain->absorption, 0.95);
 }
 
-// Moduli that fall with the share of mixed corners beyond what any effect of the library says: seen, and not given the
-// name of what comes nearest.
-TEST(Diagnosis, ACauseOutsideTheLibraryIsSeenAndNotNamed) {
+// Moduli that fall with the share of mixed corners beyond the prediction of any known effect: a misfit, and not given
+// the name of the effect that comes nearest.
+TEST(Diagnosis, AnUnmodelledCauseIsSeenAndNotNamed) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
   const std::vector<Descriptor> described = descriptors();
   const auto corners = std::find_if(described.begin(), described.end(),
@@ -201,11 +202,10 @@ TEST(Diagnosis, ACauseOutsideTheLibraryIsSeenAndNotNamed) {
   const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
   EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
   EXPECT_TRUE(diagnosis.effects.empty());
-  EXPECT_TRUE(diagnosis.partial_gain) << "what comes nearest is told";
+  EXPECT_TRUE(diagnosis.partial_gain) << "of the effect that comes nearest";
 }
 
-// Every design printed in a batch of its own, batches 4 % apart: no name, and the reader is told what could be behind
-// it.
+// Every design printed in a batch of its own, batches 4 % apart: no effect is named, and a caution gives the reason.
 TEST(Diagnosis, BatchesThatShareNoDesignAreCautionedOf) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
   RandomStream batches(1, "test/batches");
@@ -247,8 +247,9 @@ TEST(CouponDiagnosis, MuchSlackIsFoundToo) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 0.015, 0.0005);
 }
 
-// The library ends at 2e-9 /Pa: what leaves nothing there comes nearest, and no second effect makes up for the end.
-TEST(CouponDiagnosis, ASpringBeyondTheEndOfTheRangeComesNearest) {
+// The range ends at 2e-9 /Pa: an effect at its bound whose residuals are noise comes nearest, and no second effect
+// makes up for the bound.
+TEST(CouponDiagnosis, ASpringBeyondItsBoundComesNearest) {
   material::ParameterSet truth = synthetic_truth();
   truth.extensions["machine_compliance"] = {2e-9};
   std::vector<measurement::SpecimenRecord> specimens = synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5);
@@ -258,10 +259,10 @@ TEST(CouponDiagnosis, ASpringBeyondTheEndOfTheRangeComesNearest) {
   const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
   EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
   EXPECT_NE(diagnosis.summary.find("machine compliance comes nearest"), std::string::npos) << diagnosis.summary;
-  EXPECT_NE(diagnosis.summary.find("at the end of what is searched"), std::string::npos) << diagnosis.summary;
+  EXPECT_NE(diagnosis.summary.find("2e-09 1/Pa, is at its bound"), std::string::npos) << diagnosis.summary;
 }
 
-// Materials that answer faster pulls otherwise, each in its own way: no contrast stands for that.
+// Materials that respond to faster pulls, each in its own way: no contrast stands for that.
 TEST(CouponDiagnosis, AMaterialThatIsOffByItselfIsSaid) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 3, 0.01, 5);
   for (measurement::SpecimenRecord& specimen : specimens)
@@ -288,8 +289,7 @@ TEST(CouponDiagnosis, ASpringIsNamedFromCouponsThatWereUnloadedOnTheWay) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 2e-10, 3e-11);
 }
 
-// The curve is flat behind the yield point: reading it as far as its largest stress would leave out what the flow
-// shows.
+// The curve is flat behind the yield point: reading it as far as its largest stress would leave the flow out.
 TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
   const Diagnosis diagnosis = diagnose_coupons("rigid_yield", {2.5e7});
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
@@ -297,8 +297,8 @@ TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 2.5e7, 2e6);
 }
 
-// Coupons have constants of their own; those of layouts and of fracture tests were not fitted, and are not told.
-TEST(CouponDiagnosis, TheConstantsThatAreToldAreThoseThatWereFitted) {
+// Coupons have constants of their own; those of layouts and of fracture tests were not fitted, and are not reported.
+TEST(CouponDiagnosis, TheConstantsThatAreReportedAreThoseThatWereFitted) {
   material::ParameterSet truth = synthetic_truth();
   truth.modulus.e_vw_pa = 3.3e9;
   DiagnosisSettings settings = tiny_settings();
@@ -312,7 +312,7 @@ TEST(CouponDiagnosis, TheConstantsThatAreToldAreThoseThatWereFitted) {
   EXPECT_FALSE(fit.contains("toughness"));
 }
 
-// What relaxes has a time beside its size.
+// A relaxation has a time besides its size.
 TEST(CouponDiagnosis, EveryNumberOfANamedEffectHasItsInterval) {
   material::ParameterSet truth = synthetic_truth();
   truth.extensions["rate_dependence"] = {0.5, 12.0};
@@ -332,8 +332,8 @@ TEST(CouponDiagnosis, EveryNumberOfANamedEffectHasItsInterval) {
   EXPECT_EQ(effect["further_interval90"][0], (std::vector{time_s.interval_low, time_s.interval_high}));
 }
 
-// Coupons know nothing of the elements of layouts, nor of how moduli scatter.
-TEST(Diagnosis, CouponsDoNotChangeWhatIsSaidOfTheNoiseOfModuli) {
+// Coupons carry no information on the elements of layouts, nor on the scatter of moduli.
+TEST(Diagnosis, CouponsDoNotChangeTheReportedNoiseOfModuli) {
   DiagnosisSettings settings = tiny_settings();
   settings.bootstraps = 700;
   settings.check_discretisation = false;

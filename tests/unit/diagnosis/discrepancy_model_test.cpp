@@ -25,21 +25,21 @@ TEST(DiscrepancyTest, ItsVarianceIsThatOfTheNoiseOnAverage) {
   const Eigen::MatrixXd unit = discrepancy_covariance(observations, directions, noise);
   double own = 0.0, wanted = 0.0;
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[i].probe == Probe::mean) own += unit(i, i), wanted += noise(i, i);
+    if (observations.rows[i].kind == RowKind::mean) own += unit(i, i), wanted += noise(i, i);
   EXPECT_NEAR(own, wanted, 1e-9 * wanted);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(unit);
   EXPECT_GT(parts.eigenvalues().minCoeff(), -1e-12);
 }
 
-// A layout and its turned twin are one design: what an unknown cause does to it by itself, it does to both.
+// A layout and its turned twin are one design: an unmodelled cause that acts on the design acts on both.
 TEST(DiscrepancyTest, TwinsShareWhatADesignHasOfItsOwn) {
   const Observations observations = observe(specimens(), 0.003, {});
   const Eigen::MatrixXd unit = discrepancy_covariance(observations, {}, observations.covariance());
   int twins = 0;
   for (int i = 0; i < observations.size(); ++i) {
     for (int j = 0; j < i; ++j) {
-      const Row &a = observations.rows[i], &b = observations.rows[j];
-      if (a.probe != Probe::mean || b.probe != Probe::mean) continue;
+      const DataRow &a = observations.rows[i], &b = observations.rows[j];
+      if (a.kind != RowKind::mean || b.kind != RowKind::mean) continue;
       const bool same = observations.group_of(i).design == observations.group_of(j).design;
       twins += same;
       if (same)
@@ -51,8 +51,8 @@ TEST(DiscrepancyTest, TwinsShareWhatADesignHasOfItsOwn) {
   EXPECT_EQ(twins, 2);
 }
 
-// What a look-alike of cosine 0.8 leaves is just seen where names begin.
-TEST(DiscrepancyTest, ANameBeginsWhereALookAlikeIsSeen) {
+// The rest of a signature of collinearity 0.8 is just visible where names begin.
+TEST(DiscrepancyTest, ANameBeginsWhereACollinearEffectIsSeen) {
   EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - 0.8 * 0.8), kVisibleSignal, 1e-12);
 }
 

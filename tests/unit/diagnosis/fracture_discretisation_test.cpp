@@ -30,7 +30,7 @@ Observations tidy_laboratory(const FractureDiscretisation& discretisation) {
   for (const pattern::Pattern& pattern : pattern::stratified_patterns(24, random)) {
     for (const Feature feature : discretisation.features)
       observations.rows.push_back(
-          {static_cast<int>(observations.groups.size()), feature, Probe::mean, tester::TestKind::toughness, 0.25});
+          {static_cast<int>(observations.groups.size()), feature, RowKind::mean, tester::TestKind::toughness, 0.25});
     observations.groups.emplace_back();
     observations.groups.back().design = pattern;
     observations.groups.back().test = tester::TestKind::toughness;

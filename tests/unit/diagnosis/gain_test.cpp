@@ -48,7 +48,7 @@ TEST(Gain, RanksDesignsThatTheMeasurementsSetApart) {
   const Gain gain = held_out_gain(observations, upside_down, {right}, {}, 1.0, 1);
   ASSERT_EQ(gain.features.size(), 1u);
   const Ranking& ranking = gain.features[0].ranking;
-  EXPECT_EQ(ranking.pairs, 9);  // ten of five upright designs, but for the two that are alike
+  EXPECT_EQ(ranking.pairs, 9);  // ten of five upright designs, but for the two of equal stiffness
   EXPECT_EQ(ranking.before, 0);
   EXPECT_EQ(ranking.after, 9);
 }

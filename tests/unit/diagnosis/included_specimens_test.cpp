@@ -41,9 +41,8 @@ TEST_F(IncludedSpecimensTest, FracturesAreLeftOutBesideModuli) {
   EXPECT_TRUE(breaks_any(included_specimens(specimens, true)));
 }
 
-// An unusable modulus, or one that no diagnosis looks at without coupons, is nothing that fractures could stand back
-// for.
-TEST_F(IncludedSpecimensTest, FracturesTakePartWhereNothingElseWould) {
+// An unusable modulus, or one that no diagnosis uses without coupons, is no reason to leave fractures out.
+TEST_F(IncludedSpecimensTest, FracturesAreIncludedWhereNothingElseWouldBe) {
   EXPECT_TRUE(breaks_any(included_specimens(fractures_, false)));
   EXPECT_TRUE(breaks_any(included_specimens(fractures_and(specimen(layout_, TestKind::modulus, false)), false)));
   const IncludedSpecimens beside_bulk = included_specimens(fractures_and(specimen(bulk_, TestKind::modulus)), false);

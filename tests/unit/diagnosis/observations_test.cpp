@@ -38,7 +38,7 @@ Observations exact_replicates(int of_each) {
 }
 
 TEST(Observations, ReplicatesThatAgreeExactlyLeaveAFiniteWeight) {
-  // Rotated twins share what the numerics leave: nothing but scatter keeps their covariance from being singular.
+  // Rotated twins share their discretisation error: nothing but scatter keeps their covariance from being singular.
   const Observations observations = exact_replicates(5);
   ASSERT_EQ(observations.replicate_dof(tester::TestKind::modulus), 8);
   const Whitener whitener(observations.covariance());
@@ -124,13 +124,13 @@ Observations coupons_of_five_materials() {
   return observed(specimens);
 }
 
-// Six degrees of freedom tell how much a material scatters, not how seven features go together.
+// Six degrees of freedom determine how much a material scatters, not how seven features correlate.
 TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
   const Observations observations = coupons_of_five_materials();
   const std::vector<Feature> stresses = {Feature::log_tangent_10, Feature::log_tangent_30, Feature::log_tangent_50,
                                          Feature::log_peak};
   std::map<std::string, double> sd;
-  for (const Row& row : observations.rows) {
+  for (const DataRow& row : observations.rows) {
     if (row.group < 0) continue;
     const Eigen::MatrixXd& c = observations.scatter[row.scatter].covariance;
     ASSERT_GT(row.scatter, 2u) << "each material by its own replicates";
@@ -139,7 +139,7 @@ TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
       alone += c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a));
       for (const Feature b : stresses) together += c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
     }
-    EXPECT_GT(together / 16.0, 0.75 * alone / 4.0) << "what they have in common does not average out";
+    EXPECT_GT(together / 16.0, 0.75 * alone / 4.0) << "their common part does not average out";
     sd[observations.groups[row.group].design.name()] = std::sqrt(alone / 4.0);
   }
   EXPECT_GT(sd.at("soft"), 1.5 * sd.at("rigid")) << "three times as much, known within a third each";
@@ -148,7 +148,8 @@ TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
 TEST(Observations, WithoutReplicatesStressesOfOneCouponGoTogether) {
   const Observations observations = observed({coupon("a/1", {0.0, 0.005, 0.01, 0.015, 0.02})});
   ASSERT_EQ(observations.replicate_dof(tester::TestKind::tensile), 0);
-  const Eigen::MatrixXd& covariance = observations.scatter[tester::TestKind::tensile].covariance;
+  const Eigen::MatrixXd& covariance =
+      observations.scatter[static_cast<std::size_t>(tester::TestKind::tensile)].covariance;
   const auto at = [&](Feature a, Feature b) {
     return covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   };
@@ -169,7 +170,7 @@ TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
   EXPECT_FALSE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02, 0.005, 0.022})})));
 }
 
-// What relaxes within a second answers a creep test like a slow one and an impact like a fast one.
+// What relaxes within a second is relaxed in a creep test and not in an impact: neither shows it.
 TEST(Observations, BetweenRatesThatLieFarApartCouponsAreOfferedInTheMiddle) {
   const auto rates_offered = [](double fast_per_s) {
     const std::vector<double> straight = {0.0, 0.005, 0.01, 0.015, 0.02};
@@ -240,7 +241,7 @@ TEST(Observations, ATwinWithinTheToleranceIsMeasuredAlready) {
 Observations three_groups() {
   Observations observations;
   for (const char* key : {"577fffe9fffdef", "3ffc9b4ad4d2d9", "7fffffffffffff"}) {
-    observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, Probe::mean,
+    observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, RowKind::mean,
                                  tester::TestKind::modulus, 0.25});
     observations.groups.emplace_back();
     observations.groups.back().design = *pattern::design_from_name(key);
@@ -261,8 +262,8 @@ TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheDiscretisation) 
   EXPECT_NEAR(covariance(0, 0), 0.01 * 0.01 / 4 + 0.002 * 0.002 + 0.05 * 0.05, 1e-12);
 }
 
-// What lies along the direction is expected to be numerics, also where nothing was measured; what lies across it is
-// not.
+// A residual along the direction is expected to be discretisation error, also where nothing was measured; one across it
+// is not.
 TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForDiscretisation) {
   const Observations observations = three_groups();
   const Eigen::VectorXd expected = observations.shared_discretisation(Eigen::Vector2d(0.05, 0.1), {0, 1});
@@ -290,7 +291,7 @@ std::vector<measurement::SpecimenRecord> in_batches(double step) {
 TEST(Observations, BatchesThatDifferShowInARowOfTheirOwnAndNotInTheScatter) {
   const Observations observations = observed(in_batches(0.02));
   const auto row = std::find_if(observations.rows.begin(), observations.rows.end(),
-                                [](const Row& r) { return r.probe == Probe::batch; });
+                                [](const DataRow& r) { return r.kind == RowKind::batch; });
   ASSERT_NE(row, observations.rows.end());
   EXPECT_NEAR(observations.values[row - observations.rows.begin()], 0.02, 1e-9);
   EXPECT_LT(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus), 1e-3);
@@ -307,7 +308,7 @@ TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
     const Observations observations = observed(specimens);
     double largest = 0.0;
     for (int i = 0; i < observations.size(); ++i)
-      if (observations.rows[i].probe == Probe::batch_rest)
+      if (observations.rows[i].kind == RowKind::batch_rest)
         largest = std::max(largest, std::abs(observations.values[i]));
     return largest;
   };
@@ -317,8 +318,8 @@ TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
   const auto offset = std::ranges::find(observations.batch_offsets, "batch 1", &BatchOffset::batch);
   ASSERT_NE(offset, observations.batch_offsets.end());
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[i];
-    if (row.group < 0 && row.probe != Probe::print_order) {
+    const DataRow& row = observations.rows[i];
+    if (row.group < 0 && row.kind != RowKind::print_order) {
       EXPECT_NEAR(observations.values[i], 0.1 * offset->rows[i], 1e-9) << "what the batch is off by explains all";
     }
   }
@@ -347,11 +348,11 @@ std::vector<measurement::SpecimenRecord> printed_in_turn(double drift) {
   return specimens;
 }
 
-TEST(Observations, APrintOrderThatIsNotKnownTakesNoPart) {
+TEST(Observations, APrintOrderThatIsNotKnownIsLeftOut) {
   std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.01);
   specimens[13].print_order = 0;
   const Observations observations = observed(specimens);
-  const auto row = std::ranges::find(observations.rows, Probe::print_order, &Row::probe);
+  const auto row = std::ranges::find(observations.rows, RowKind::print_order, &DataRow::kind);
   ASSERT_NE(row, observations.rows.end());
   EXPECT_NEAR(observations.values[row - observations.rows.begin()], 0.01, 1e-9);
   for (const Observation& group : observations.groups) EXPECT_GT(group.print_order, 0.9);

@@ -37,8 +37,8 @@ class Plans : public testing::Test {
   DiagnosisSettings settings_;
 };
 
-TEST_F(Plans, ACauseWithoutANameIsCountedLikeOneOfTheLibrary) {
-  // The same change of the same specimens: as a signature of the library, and as what another set of values shows.
+TEST_F(Plans, AnUnmodelledCauseIsCountedLikeAKnownEffect) {
+  // The same change of the same specimens: as a signature of an effect, and as a difference between two sets of values.
   const SyntheticSet set{.patterns = 10, .twins = 3, .noise = 0.0};
   const material::Effect& mixing = *material::find_effect("droplet_mixing");
   const double typical = material::value_at_strength(mixing.parameters.front(), kSizes[kTypicalSize]);
@@ -64,7 +64,7 @@ TEST_F(Plans, CouponsAreThoseOfTheInksThatAreGiven) {
   EXPECT_LT(own, 0.6 * planned_yield());
 }
 
-// Flow leaves nothing until stress reaches the yield stress: the smallest effect is where it begins to show.
+// Flow has no signature until stress reaches the yield stress: the smallest effect is where it begins to show.
 TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   const auto pulled = [&](const material::ParameterSet& truth) { return synthetic_coupons(truth, {1e-3}, 3, 0.0, 1); };
   const auto plain = pulled(settings_.start);
@@ -74,8 +74,8 @@ TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), kVisibleSignal);
 }
 
-// A machine that gives way looks nearly like softer materials on specimens of all stiffnesses; what is left is seen.
-TEST_F(Plans, WhatTheBaseMostlyImitatesIsSeenByWhatIsLeft) {
+// A machine that gives way looks nearly like softer materials on specimens of all stiffnesses; the rest is visible.
+TEST_F(Plans, AnEffectThatTheBaseMostlyImitatesIsSeenByTheRest) {
   const auto printed = [&](double compliance_per_pa) {
     const auto truth = compliance_per_pa > 0.0 ? with("machine_compliance", compliance_per_pa) : settings_.start;
     auto specimens = synthetic_specimens({.patterns = 14, .twins = 5, .noise = 0.0}, truth);
@@ -111,29 +111,31 @@ TEST_F(Plans, ProposalsTakeNothingAwayFromTheSet) {
   }
 }
 
-// A diagnosis of moduli alone looks for a few effects only (METHODS.md, "Diagnosis", 3): a plan promises no others, nor
-// has them as rivals, though coupons are among what it proposes.
-TEST_F(Plans, ModuliAlonePromiseOnlyWhatIsLookedForOnThem) {
+// A diagnosis of moduli alone has few candidate effects (METHODS.md, "Diagnosis", 3): a plan promises no others, nor
+// has them as rivals, though it proposes coupons too.
+TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
   const auto moduli = synthetic_specimens({.patterns = 10, .twins = 4, .replicates = 2}, settings_.start);
   const Plan plan = plan_diagnosis(moduli, settings_, kScatter);
-  const auto is_looked_for = [](const std::string& name) { return tells_on_moduli(*material::find_effect(name)); };
+  const auto is_candidate = [](const std::string& name) {
+    return is_identified_by_moduli(*material::find_effect(name));
+  };
   for (const PlannedEffect& effect : plan.effects) {
-    if (!is_looked_for(effect.name)) EXPECT_EQ(effect.status, "not_shown") << effect.name;
-    if (!effect.nearest_rival.empty()) EXPECT_TRUE(is_looked_for(effect.nearest_rival)) << effect.nearest_rival;
+    if (!is_candidate(effect.name)) EXPECT_EQ(effect.status, "not_shown") << effect.name;
+    if (!effect.nearest_rival.empty()) EXPECT_TRUE(is_candidate(effect.nearest_rival)) << effect.nearest_rival;
   }
   bool coupons_show_more = false;
   for (const PlannedAddition& addition : plan.additions) {
     const bool coupons = addition.specimens.front().starts_with("tensile");
     for (const auto& change : addition.changes) {
-      if (!coupons) EXPECT_TRUE(is_looked_for(change.effect)) << addition.words << ": " << change.effect;
-      coupons_show_more = coupons_show_more || (coupons && !is_looked_for(change.effect));
+      if (!coupons) EXPECT_TRUE(is_candidate(change.effect)) << addition.words << ": " << change.effect;
+      coupons_show_more = coupons_show_more || (coupons && !is_candidate(change.effect));
     }
   }
   EXPECT_TRUE(coupons_show_more);
 }
 
-// What a diagnosis would refuse shows nothing, and the person is told what would make it enough.
-TEST_F(Plans, TooFewSpecimensShowNothingAndAreToldWhatToAdd) {
+// With fewer specimens than a diagnosis needs no effect shows, and the plan gives what to add.
+TEST_F(Plans, TooFewSpecimensShowNothingAndThePlanSaysWhatToAdd) {
   const auto specimens = synthetic_specimens({.patterns = 3, .twins = 0}, settings_.start);
   const Plan plan = plan_diagnosis(specimens, settings_, kScatter);
   EXPECT_TRUE(plan.too_few.ends_with("there are 3 and 0")) << plan.too_few;

@@ -1,4 +1,4 @@
-// What a test is said to tell before it is made, against what it tells once it is.
+// The information that a test promises before it is made, against what it gives once it is.
 
 #include "diagnosis/predicted_tests.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kReplicates = 3;
 
-/// Moduli of which finer elements change a part that all share.
+/// Moduli with a shared discretisation error.
 DiagnosisSettings tiny_settings() {
   DiagnosisSettings settings{};
   settings.start = material::default_parameters();
@@ -38,7 +38,7 @@ std::vector<measurement::SpecimenRecord> mixed_specimens() {
 /// What was measured with one modulus more.
 Observations with_test(const Observations& measured, const PossibleTest& test) {
   Observations observations = measured;
-  observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, Probe::mean,
+  observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, RowKind::mean,
                                test.test, 1.0 / kReplicates, static_cast<std::size_t>(test.test)});
   observations.groups.push_back(group_of(test, kReplicates));
   observations.values.conservativeResize(observations.size());
@@ -90,8 +90,8 @@ class MixedDroplets : public testing::Test {
   static inline std::unique_ptr<Gathered> gathered_;
 };
 
-// The base is refuted by as much as is promised. Of two look-alikes each imitates the other along a curve, which slopes
-// do not know: no more may be promised than a test gives, but for what a standard error is.
+// The base is refuted by as much as is promised. Of two collinear effects each imitates the other along a curve, which
+// slopes do not know: no more may be promised than a test gives, within a standard error.
 TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
   const Evidence& evidence = gathered_->evidence;
   const std::vector<PossibleTest> tests = few_tests(evidence.observations);
@@ -107,16 +107,16 @@ TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
   const auto before = misfits(evidence.observations);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const auto after = misfits(with_test(evidence.observations, tests[t]));
-    const double of_a_look_alike = 0.5 * (after[0] - before[0] + after[1] - before[1]),
+    const double of_a_collinear_effect = 0.5 * (after[0] - before[0] + after[1] - before[1]),
                  of_the_base = after[2] - before[2];
     const std::vector<Separation> promised = predicted.separations(t, {{0, 1}, {0, 2}});
     const std::string test = tests[t].design.name() + ", " + tests[t].words;
     EXPECT_NEAR(std::pow(promised[1].errors, 2) / of_the_base, 1.0, 0.15) << test;
-    EXPECT_LT(promised[0].errors, std::sqrt(std::max(of_a_look_alike, 0.0)) + 0.5) << test;
+    EXPECT_LT(promised[0].errors, std::sqrt(std::max(of_a_collinear_effect, 0.0)) + 0.5) << test;
   }
 }
 
-TEST_F(MixedDroplets, WhatBothModelsTakeForAReplicateSaysNothing) {
+TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
   const Evidence& evidence = gathered_->evidence;
   std::vector<PossibleTest> twins = possible_tests(evidence.observations);
   std::erase_if(twins, [](const PossibleTest& test) { return test.kind != AddedTest::twin; });

@@ -1,5 +1,5 @@
 #pragma once
-// Measurement sets made by the modulus tester itself: same numerics, known truth, declared noise.
+// Measurement sets made by the modulus tester itself: same discretisation, known truth, declared noise.
 
 #include <cmath>
 #include <string>
@@ -20,7 +20,7 @@ struct SyntheticSet {
   int replicates = 3;
   double noise = 0.015;
   std::uint64_t seed = 1;
-  int refinement = 1;  ///< elements of the specimens: 2 is another numerics than the diagnosis has
+  int refinement = 1;  ///< elements of the specimens: 2 is a finer mesh than that of the diagnosis
 };
 
 /// Specimens whose moduli the tester predicts for `truth`, with lognormal replicate noise.

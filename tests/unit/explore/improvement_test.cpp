@@ -81,7 +81,7 @@ TEST(BestImprovements, AreChosenOneByOneAsIfTheFormerCameTrue) {
   EXPECT_EQ(best_improvements({beliefs.begin(), beliefs.begin() + 3}, {}, 8).size(), 3u);
 }
 
-TEST(BestImprovements, ALookAlikeOfTheChosenOneIsSurelyNotTheNext) {
+TEST(BestImprovements, APatternCorrelatedWithTheChosenOneIsNotTheNext) {
   // Three equally promising patterns; the first two err together, the third by itself.
   const Belief belief{{std::log(0.9e9), 0.05}, {std::log(0.36e6), 0.3}};
   const std::vector<Belief> beliefs = {belief, belief, belief};

@@ -1,4 +1,4 @@
-// Searches that think: learned, tsemo, dgemo.
+// Model-based searches: learned, tsemo, dgemo.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -74,12 +74,12 @@ std::vector<int> barred_by_batch(const SearchSettings& chosen) {
   std::vector<int> barred;
   for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
     barred.push_back(0);
-    std::vector<std::optional<optimize::Performance>> answers;
+    std::vector<std::optional<optimize::Performance>> performances;
     for (const pattern::Pattern& pattern : batch) {
       barred.back() += has_bars(pattern);
-      answers.push_back(synthetic_performance(pattern));
+      performances.push_back(synthetic_performance(pattern));
     }
-    search->tell(answers);
+    search->tell(performances);
   }
   return barred;
 }
@@ -169,9 +169,9 @@ TEST(Learned, TheModulusThatIsComputedDecidesAndNotTheOneBelieved) {
   };
   const auto search = make_search(chosen);
   while (!search->batch_request()) {
-    std::vector<std::optional<optimize::Performance>> answers;
-    for (const pattern::Pattern& pattern : search->ask()) answers.push_back(synthetic_performance(pattern));
-    search->tell(answers);
+    std::vector<std::optional<optimize::Performance>> performances;
+    for (const pattern::Pattern& pattern : search->ask()) performances.push_back(synthetic_performance(pattern));
+    search->tell(performances);
   }
   const std::vector<pattern::Pattern> batch = search->ask();
   ASSERT_EQ(batch.size(), 10u);
@@ -199,7 +199,7 @@ TEST(Predictors, AFormerModelThatMisleadsIsNotBuiltUpon) {
   };
   const std::vector<double> alone = fit_predictors(samples, chosen).toughness->means(others);
   EXPECT_EQ(upon(misleading), alone);
-  EXPECT_NE(upon(former), alone) << "a former model that says the same is of use";
+  EXPECT_NE(upon(former), alone) << "a former model that agrees is of use";
 }
 
 TEST(Learned, FormerSamplesOfAnotherModelAreAHeadStart) {
@@ -217,7 +217,7 @@ TEST(Learned, FormerSamplesOfAnotherModelAreAHeadStart) {
 
 class EveryModelSearch : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(EveryModelSearch, AnswersToItsQuestionsAreWhatItAsks) {
+TEST_P(EveryModelSearch, BatchesForItsRequestsAreThoseThatItAsks) {
   const auto search = make_search(settings(GetParam(), 4, 40)), other = make_search(settings(GetParam(), 4, 40));
   int batch_requests = 0;
   while (true) {
@@ -227,18 +227,18 @@ TEST_P(EveryModelSearch, AnswersToItsQuestionsAreWhatItAsks) {
     const auto same = batch_request ? other->ask_with(batch_for(*batch_request)) : other->ask();
     ASSERT_EQ(batch, same);
     if (batch.empty()) break;
-    EXPECT_FALSE(search->batch_request()) << "a question while a batch is out";
-    std::vector<std::optional<optimize::Performance>> answers;
+    EXPECT_FALSE(search->batch_request()) << "a request while a batch is out";
+    std::vector<std::optional<optimize::Performance>> performances;
     for (const pattern::Pattern& pattern : batch) {
-      answers.push_back(pattern.bits() % 5 == 0 ? std::nullopt : std::optional(synthetic_performance(pattern)));
+      performances.push_back(pattern.bits() % 5 == 0 ? std::nullopt : std::optional(synthetic_performance(pattern)));
     }
-    search->tell(answers);
-    other->tell(answers);
+    search->tell(performances);
+    other->tell(performances);
   }
   EXPECT_EQ(batch_requests, 2);
 }
 
-TEST_P(EveryModelSearch, AnInterruptedSearchGoesOnWithoutThinkingTwice) {
+TEST_P(EveryModelSearch, AnInterruptedSearchComputesNoBatchTwice) {
   const std::string path = ::testing::TempDir() + "/nacre_batches_" + GetParam() + ".txt";
   std::filesystem::remove(path);
   const SearchSettings whole = settings(GetParam(), 5, 40);
@@ -248,9 +248,9 @@ TEST_P(EveryModelSearch, AnInterruptedSearchGoesOnWithoutThinkingTwice) {
     EXPECT_EQ(log.left(), expected_left);
     for (int i = 0; i < batches; ++i) {
       const auto batch = log.ask(*search);
-      std::vector<std::optional<optimize::Performance>> answers;
-      for (const pattern::Pattern& pattern : batch) answers.push_back(synthetic_performance(pattern));
-      if (!batch.empty()) search->tell(answers);
+      std::vector<std::optional<optimize::Performance>> performances;
+      for (const pattern::Pattern& pattern : batch) performances.push_back(synthetic_performance(pattern));
+      if (!batch.empty()) search->tell(performances);
     }
     return search->evaluated();
   };
@@ -276,9 +276,9 @@ TEST(BatchLog, ASearchGoesOnWithALargerBudget) {
       const auto search = make_search(wanted);
       BatchLog log(path, wanted);
       for (auto batch = log.ask(*search); !batch.empty(); batch = log.ask(*search)) {
-        std::vector<std::optional<optimize::Performance>> answers;
-        for (const pattern::Pattern& pattern : batch) answers.push_back(synthetic_performance(pattern));
-        search->tell(answers);
+        std::vector<std::optional<optimize::Performance>> performances;
+        for (const pattern::Pattern& pattern : batch) performances.push_back(synthetic_performance(pattern));
+        search->tell(performances);
       }
       return search->evaluated();
     };

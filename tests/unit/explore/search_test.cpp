@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Those that take time to think are tested with smaller budgets in model_search_test.cpp.
+/// Model-based ones are tested with smaller budgets in model_search_test.cpp.
 const std::vector<std::string> kQuickAlgorithms = {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"};
 
 SearchSettings settings(const std::string& algorithm, std::uint64_t seed, int budget = 200) {
@@ -171,12 +171,12 @@ TEST(Evolution, RollBackEndsEarlyWhenAllNeighboursAreSeen) {
   while (true) {
     const auto batch = search->ask();
     if (batch.empty()) break;
-    std::vector<std::optional<optimize::Performance>> answers;
+    std::vector<std::optional<optimize::Performance>> performances;
     for (std::size_t i = 0; i < batch.size(); ++i, ++told) {
       const double value = 1e6 / (1 + told);  // every newcomer is worse than all before
-      answers.push_back(optimize::Performance{value, value});
+      performances.push_back(optimize::Performance{value, value});
     }
-    search->tell(answers);
+    search->tell(performances);
   }
   EXPECT_GT(told, 20);
   EXPECT_LE(told, 2 + 2 * pattern::kFreePixels);
@@ -187,9 +187,10 @@ TEST(Evolution, RollBackEndsEarlyWhenAllNeighboursAreSeen) {
   std::size_t asked = 0;
   for (auto batch = other->ask(); !batch.empty(); batch = other->ask()) {
     asked += batch.size();
-    std::vector<std::optional<optimize::Performance>> answers;
-    for (std::size_t i = 0; i < batch.size(); ++i) answers.push_back(optimize::Performance{1.0 / asked, 1.0 / asked});
-    other->tell(answers);
+    std::vector<std::optional<optimize::Performance>> performances;
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      performances.push_back(optimize::Performance{1.0 / asked, 1.0 / asked});
+    other->tell(performances);
   }
   EXPECT_EQ(asked, 1000u);
 }

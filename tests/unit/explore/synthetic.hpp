@@ -35,11 +35,11 @@ std::vector<std::vector<pattern::Pattern>> run(Search& search, Fails fails) {
     const std::vector<pattern::Pattern> batch = search.ask();
     if (batch.empty()) return batches;
     batches.push_back(batch);
-    std::vector<std::optional<optimize::Performance>> answers;
+    std::vector<std::optional<optimize::Performance>> performances;
     for (const pattern::Pattern& pattern : batch) {
-      answers.push_back(fails(pattern) ? std::nullopt : std::optional(synthetic_performance(pattern)));
+      performances.push_back(fails(pattern) ? std::nullopt : std::optional(synthetic_performance(pattern)));
     }
-    search.tell(answers);
+    search.tell(performances);
   }
 }
 

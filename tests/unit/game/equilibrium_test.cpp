@@ -20,25 +20,25 @@ TEST(Equilibrium, NeedsTwoQuietRoundsRunning) {
 TEST(Equilibrium, HypervolumeGrowthBeyondItsErrorGoesOn) {
   const std::vector<RoundFigures> history = {
       {0, 0, 0, 2}, {1, 0.70, 0.03, 0.5}, {2, 0.71, 0.03, 0.05}, {3, 0.745, 0.03, 0.05}};
-  const Verdict verdict = judge_equilibrium(history);
-  EXPECT_FALSE(verdict.equilibrium);
-  EXPECT_THAT(verdict.decided_by, HasSubstr("grew by 0.035"));
+  const EquilibriumCheck check = judge_equilibrium(history);
+  EXPECT_FALSE(check.equilibrium);
+  EXPECT_THAT(check.decided_by, HasSubstr("grew by 0.035"));
 }
 
 TEST(Equilibrium, AnOpenMovingGapGoesOn) {
   const std::vector<RoundFigures> history = {
       {0, 0, 0, 2}, {1, 0.70, 0.03, 0.5}, {2, 0.71, 0.03, 0.40}, {3, 0.71, 0.03, 0.30}};
-  const Verdict verdict = judge_equilibrium(history);
-  EXPECT_FALSE(verdict.equilibrium);
-  EXPECT_THAT(verdict.decided_by, HasSubstr("exceeds twice the standard error"));
+  const EquilibriumCheck check = judge_equilibrium(history);
+  EXPECT_FALSE(check.equilibrium);
+  EXPECT_THAT(check.decided_by, HasSubstr("exceeds twice the standard error"));
 }
 
 TEST(Equilibrium, AWideGapThatNoLongerMovesEndsTheGame) {
   const std::vector<RoundFigures> history = {
       {0, 0, 0, 2}, {1, 0.70, 0.03, 0.50}, {2, 0.71, 0.03, 0.48}, {3, 0.71, 0.03, 0.47}};
-  const Verdict verdict = judge_equilibrium(history);
-  EXPECT_TRUE(verdict.equilibrium);
-  EXPECT_THAT(verdict.decided_by, HasSubstr("less than 10 %"));
+  const EquilibriumCheck check = judge_equilibrium(history);
+  EXPECT_TRUE(check.equilibrium);
+  EXPECT_THAT(check.decided_by, HasSubstr("less than 10 %"));
 }
 
 TEST(Equilibrium, ANegativeGapIsJudgedByItsSize) {

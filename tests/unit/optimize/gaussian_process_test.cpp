@@ -22,9 +22,9 @@ VectorXd vec(std::initializer_list<double> values) {
 
 MaternKernel kernel(double signal, VectorXd lengths, double noise) { return {signal, std::move(lengths), noise}; }
 
-Observations random_observations(int count, int dimension, double noise_variance = 0.0) {
+RegressionData random_observations(int count, int dimension, double noise_variance = 0.0) {
   RandomStream random(3, "gp");
-  Observations data{MatrixXd(count, dimension), VectorXd(count), VectorXd::Constant(count, noise_variance)};
+  RegressionData data{MatrixXd(count, dimension), VectorXd(count), VectorXd::Constant(count, noise_variance)};
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < dimension; ++j) data.inputs(i, j) = random.uniform();
     data.values[i] = std::sin(4.0 * data.inputs(i, 0)) + 0.1 * random.normal();
@@ -39,10 +39,10 @@ TEST(MaternKernel, HasItsClosedForm) {
   EXPECT_DOUBLE_EQ(k(vec({0.1, 0.2}), vec({0.1, 0.2})), 4.0);
 }
 
-// One observation y beside the prior mean m (here the mean of the values, y itself, so two points are needed for a
+// One observation y besides the prior mean m (here the mean of the values, y itself, so two points are needed for a
 // closed form).
 TEST(GaussianProcess, TwoObservationsHaveTheirClosedForm) {
-  Observations data{MatrixXd(2, 1), vec({1.0, 3.0}), vec({0.04, 0.09})};
+  RegressionData data{MatrixXd(2, 1), vec({1.0, 3.0}), vec({0.04, 0.09})};
   data.inputs << 0.2, 0.6;
   const MaternKernel k = kernel(1.5, vec({0.4}), 0.1);
   const GaussianProcess process(data, k);
@@ -60,7 +60,7 @@ TEST(GaussianProcess, TwoObservationsHaveTheirClosedForm) {
 }
 
 TEST(GaussianProcess, InterpolatesWhereThereIsNoNoise) {
-  const Observations data = random_observations(12, 2);
+  const RegressionData data = random_observations(12, 2);
   const GaussianProcess process(data, kernel(1.0, vec({0.4, 0.6}), 0.0));
   for (Eigen::Index i = 0; i < 12; ++i) {
     const auto predicted = process.predict(data.inputs.row(i).transpose());
@@ -70,7 +70,7 @@ TEST(GaussianProcess, InterpolatesWhereThereIsNoNoise) {
 }
 
 TEST(GaussianProcess, ANoisierObservationIsBelievedLess) {
-  Observations data{MatrixXd(2, 1), vec({0.0, 1.0}), vec({0.0, 0.0})};
+  RegressionData data{MatrixXd(2, 1), vec({0.0, 1.0}), vec({0.0, 0.0})};
   data.inputs << 0.3, 0.7;
   const MaternKernel k = kernel(1.0, vec({0.3}), 0.0);
   const double exact = GaussianProcess(data, k).predict(vec({0.7})).mean;
@@ -79,7 +79,7 @@ TEST(GaussianProcess, ANoisierObservationIsBelievedLess) {
 }
 
 TEST(GaussianProcess, ManyPointsAtOnceEqualOneByOne) {
-  const Observations data = random_observations(20, 3);
+  const RegressionData data = random_observations(20, 3);
   const GaussianProcess process(data, kernel(1.0, vec({0.4, 0.6, 0.9}), 0.1));
   const MatrixXd at = random_observations(7, 3).inputs;
   const auto all = process.predict_all(at);
@@ -91,7 +91,7 @@ TEST(GaussianProcess, ManyPointsAtOnceEqualOneByOne) {
 }
 
 TEST(GaussianProcess, LikelihoodGradientIsThatOfFiniteDifferences) {
-  const Observations data = random_observations(15, 3, 0.01);
+  const RegressionData data = random_observations(15, 3, 0.01);
   const MaternKernel at = kernel(0.8, vec({0.5, 0.9, 1.3}), 0.15);
   const VectorXd gradient = GaussianProcess(data, at).log_marginal_gradient();
   ASSERT_EQ(gradient.size(), 5);
@@ -119,7 +119,7 @@ TEST(GaussianProcess, MeanGradientIsThatOfFiniteDifferences) {
 }
 
 TEST(GaussianProcess, RepeatedPointsWithoutNoiseNeedJitterAndSaySo) {
-  Observations data{MatrixXd::Constant(6, 2, 0.5), vec({1, 1, 1, 1, 1, 1}), VectorXd::Zero(6)};
+  RegressionData data{MatrixXd::Constant(6, 2, 0.5), vec({1, 1, 1, 1, 1, 1}), VectorXd::Zero(6)};
   const GaussianProcess process(data, kernel(1.0, vec({0.5, 0.5}), 0.0));
   EXPECT_GT(process.jitter(), 0.0);
   EXPECT_LT(process.jitter(), 1e-6);
@@ -127,7 +127,7 @@ TEST(GaussianProcess, RepeatedPointsWithoutNoiseNeedJitterAndSaySo) {
 }
 
 TEST(KernelFit, FindsTheDimensionThatMattersAndTheNoise) {
-  const Observations data = random_observations(60, 3);
+  const RegressionData data = random_observations(60, 3);
   const MaternKernel fitted = fit_kernel(data, 1, 1);
   EXPECT_LT(fitted.lengths[0], 1.0);
   EXPECT_GT(fitted.lengths[1], 2.0 * fitted.lengths[0]);
@@ -136,7 +136,7 @@ TEST(KernelFit, FindsTheDimensionThatMattersAndTheNoise) {
 }
 
 TEST(KernelFit, ScalesWithTheValues) {
-  Observations data = random_observations(25, 2);
+  RegressionData data = random_observations(25, 2);
   const MaternKernel fitted = fit_kernel(data, 0, 1);
   data.values *= 1e6;
   const MaternKernel scaled = fit_kernel(data, 0, 1);
@@ -161,7 +161,7 @@ TEST(ExpectedImprovement, HasItsClosedFormAndANumericallySafeTail) {
 }
 
 TEST(PenalisedImprovement, IsNothingAtAPendingPointAndWholeFarFromIt) {
-  Observations data{MatrixXd(3, 1), vec({1.0, 0.0, 1.0}), VectorXd::Zero(3)};
+  RegressionData data{MatrixXd(3, 1), vec({1.0, 0.0, 1.0}), VectorXd::Zero(3)};
   data.inputs << 0.1, 0.5, 0.9;
   const GaussianProcess process(data, kernel(1.0, vec({0.2}), 0.0));
   PenalisedImprovement worth(process, 0.0, 0.01, 1);

@@ -8,7 +8,7 @@
 #include "base/hash.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "optimize/batch_optimizer.hpp"
+#include "optimize/nlopt_optimizer.hpp"
 #include "optimize/space_filling.hpp"
 
 namespace nacre::optimize {
@@ -102,12 +102,13 @@ double relative_to_random(const std::function<Function(int, std::uint64_t)>& fam
   return std::exp(log_sum / kSeeds);
 }
 
-struct Case {
+struct FunctionCase {
   int dimension, budget;
   double allowed;  ///< of random search's value
 };
 
-void expect_clearly_better(const std::function<Function(int, std::uint64_t)>& family, const std::vector<Case>& cases) {
+void expect_clearly_better(const std::function<Function(int, std::uint64_t)>& family,
+                           const std::vector<FunctionCase>& cases) {
   for (const auto& [dimension, budget, allowed] : cases) {
     const double ratio = relative_to_random(family, dimension, budget);
     EXPECT_LT(ratio, allowed) << dimension << " dimensions, " << budget << " evaluations";

@@ -8,7 +8,7 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
-#include "report/svg.hpp"
+#include "report/standalone.hpp"
 #include "sample_run.hpp"
 
 namespace nacre::report {
@@ -45,9 +45,9 @@ PaperSource source(bool stage = true) {
   for (const auto& [number, round] : source.run.rounds) {
     source.searches.push_back({number, 0, round.gamut});
     for (const auto& [design, simulation] : round.simulated)
-      source.answers[number][design] = {simulation.performance.modulus_pa, simulation.performance.toughness_pa};
+      source.predictions[number][design] = {simulation.performance.modulus_pa, simulation.performance.toughness_pa};
   }
-  source.answers[0]["rigid"] = {2.66e9, 7.5e4};
+  source.predictions[0]["rigid"] = {2.66e9, 7.5e4};
   if (!stage) return source;
   source.run.families = {family(0, true), family(1, false)};
   for (const store::RecordedFamily& each : source.run.families)
@@ -87,7 +87,7 @@ TEST(Paper, WhatIsMissingIsSaidInItsPlaceAndNothingIsInvented) {
   for (const Exhibit& each : exhibits_of(nothing)) {
     EXPECT_FALSE(each.notes.empty()) << each.id;
     EXPECT_TRUE(each.figures.empty()) << each.id;
-    for (const PaperTable& table : each.tables) EXPECT_TRUE(table.rows.empty()) << each.id << ' ' << table.name;
+    for (const ExhibitTable& table : each.tables) EXPECT_TRUE(table.rows.empty()) << each.id << ' ' << table.name;
   }
   const auto without_stage = exhibits_of(source(false));
   for (const char* id : {"figure-3-14", "figure-3-15", "table-3-7", "table-a-5", "table-a-6"})
@@ -96,27 +96,27 @@ TEST(Paper, WhatIsMissingIsSaidInItsPlaceAndNothingIsInvented) {
 
 TEST(Paper, TheThesisErrorsComeOutOfItsAppendixAsItsTableSays) {
   const auto all = exhibits_of(source());
-  const PaperTable& table = exhibit(all, "figure-3-7").tables.front();
+  const ExhibitTable& table = exhibit(all, "figure-3-7").tables.front();
   ASSERT_EQ(table.rows.size(), 8U) << "four rounds here, four of the thesis";
   const auto& last = table.rows.back();  // Table 3.5, round 4: E 18.95 and 6.50 %, T 82.38 and 27.10 %
   EXPECT_NEAR(std::stod(last[2].kept), 0.1895, 0.001);
   EXPECT_NEAR(std::stod(last[4].kept), 0.0650, 0.001);
   EXPECT_NEAR(std::stod(last[6].kept), 0.8238, 0.003);
   EXPECT_NEAR(std::stod(last[8].kept), 0.2710, 0.002);
-  EXPECT_TRUE(table.is_thesis.back());
+  EXPECT_EQ(table.kinds.back(), TableRowKind::thesis);
 }
 
 TEST(Paper, ErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
   const auto figure = [](const PaperSource& run, const std::string& property) {
     const auto all = exhibits_of(run);
-    for (const PaperFigure& each : exhibit(all, "figure-3-7").figures)
+    for (const ExhibitFigure& each : exhibit(all, "figure-3-7").figures)
       if (each.name == "figure-3-7-" + property) return each.svg;
     return std::string();
   };
   PaperSource run = source();
   for (auto& [number, round] : run.run.rounds) round.summary->held_out.modulus_count = 0;
-  EXPECT_THAT(figure(run, "modulus"), Not(HasSubstr("held out")));
-  EXPECT_THAT(figure(run, "toughness"), HasSubstr("held out"));
+  EXPECT_THAT(figure(run, "modulus"), Not(HasSubstr("out-of-sample")));
+  EXPECT_THAT(figure(run, "toughness"), HasSubstr("out-of-sample"));
   for (auto& [number, round] : run.run.rounds)
     round.summary->before.toughness_count = round.summary->after.toughness_count =
         round.summary->held_out.toughness_count = 0;
@@ -126,7 +126,7 @@ TEST(Paper, ErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
 TEST(Paper, EveryPictureHoldsItsColoursItself) {
   std::size_t pictures = 0;
   for (const Exhibit& each : exhibits_of(source()))
-    for (const PaperFigure& figure : each.figures) {
+    for (const ExhibitFigure& figure : each.figures) {
       if (figure.svg.empty()) continue;
       const std::string file = standalone(figure.svg);
       EXPECT_THAT(file, AllOf(Not(HasSubstr("var(")), HasSubstr(".line.sim { stroke: #2a66a8;"))) << figure.name;
@@ -140,7 +140,7 @@ TEST(Paper, ATwinPulledFasterIsNoMeasurementOfTheBaseMaterial) {
   const auto base_note = [&] {
     const auto all = exhibits_of(run);
     for (const std::string& note : exhibit(all, "figure-3-4").notes)
-      if (note.starts_with("Base:")) return note;
+      if (note.starts_with("The tougher ink alone")) return note;
     return std::string();
   };
   run.run.specimens.push_back(sample::specimen(pattern::Mixture{1.0}, {2.6e9, 2e5}, tester::TestKind::toughness, 1, 1));
@@ -153,7 +153,7 @@ TEST(Paper, ATwinPulledFasterIsNoMeasurementOfTheBaseMaterial) {
 
 TEST(Paper, TheThesisHypervolumesComeOutOfItsAppendix) {
   const auto all = exhibits_of(source());
-  const PaperTable& table = exhibit(all, "figure-3-3").tables.front();
+  const ExhibitTable& table = exhibit(all, "figure-3-3").tables.front();
   const double expected[] = {0.655, 0.698, 0.911, 0.911, 0.911};
   ASSERT_EQ(table.rows.size(), 9U);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -230,7 +230,7 @@ TEST(Paper, SeedErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
   PaperSource run = source();
   for (const std::size_t family : {0, 1}) forget(run, family, true, &game::DesignValues::modulus_pa);
   const std::vector<Exhibit> all = exhibits_of(run);
-  const std::vector<PaperFigure>& figures = exhibit(all, "figure-3-14").figures;
+  const std::vector<ExhibitFigure>& figures = exhibit(all, "figure-3-14").figures;
   ASSERT_EQ(figures.size(), 1U);
   EXPECT_EQ(figures[0].name, "figure-3-14-toughness");
   forget(run, 0, true, &game::DesignValues::toughness_pa);

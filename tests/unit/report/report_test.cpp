@@ -14,6 +14,7 @@ namespace nacre::report {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -62,6 +63,42 @@ TEST(Report, RunningGameLeavesNothingAwaited) {
   EXPECT_EQ(fault_of_markup(page), "");
 }
 
+std::string head_of(const std::string& page) {
+  return page.substr(page.find("<header>"), page.find("</header>") - page.find("<header>"));
+}
+
+TEST(Report, BeginsWithTheBestDesignAndItsGainOverMixtures) {
+  const std::string head = head_of(render_report(sample::run(), "a-run"));
+  EXPECT_THAT(head, AllOf(HasSubstr("Best of 18 measured patterns"), HasSubstr("<svg class=\"unit\""),
+                          ContainsRegex("[0-9]\\.[0-9][0-9] times the toughness of a mixture of equal stiffness"),
+                          ContainsRegex("E = [0-9.]+ ± [0-9.]+ GPa, T = [0-9.]+ ± [0-9.]+ MPa")));
+  EXPECT_LT(head.find("times the toughness"), head.find("Round 3 is closed"));
+  EXPECT_THAT(head_of(render_report(sample::run(0), "a-run")), Not(HasSubstr("Best of")));
+}
+
+TEST(Report, WithoutMixturesTheToughestPatternIsCalledThat) {
+  store::RunRecord run = sample::run();
+  for (auto& [number, round] : run.rounds) round.benchmark.clear();
+  const std::string head = head_of(render_report(run, "a-run"));
+  EXPECT_THAT(head, AllOf(HasSubstr("The toughest pattern; no mixture of equal stiffness has been measured"),
+                          Not(HasSubstr("times the toughness of a mixture of equal"))));
+}
+
+TEST(Report, HeadingsOfTablesAreWordsWithAHint) {
+  const std::string page = render_report(sample::run(), "a-run");
+  EXPECT_THAT(section_of(page, "errors"),
+              ContainsRegex("<th scope=\"col\" title=\"Spearman [^\"]*\">rank correlation of T</th>"));
+  EXPECT_THAT(section_of(page, "diagnosis"),
+              AllOf(ContainsRegex("title=\"[^\"]+\">improvement of fit \\(chi squared\\)</th>"),
+                    HasSubstr("<strong>possible cause</strong>"), HasSubstr("not visible in these data")));
+}
+
+TEST(Report, SoftAndRigidHaveALegend) {
+  const std::string page = render_report(sample::run(), "a-run");
+  for (const std::string& part : {head_of(page), section_of(page, "proposals")})
+    EXPECT_THAT(part, ContainsRegex("class=\"rigid\"[^<]*/></svg> rigid</span>.*class=\"soft\"[^<]*/></svg> soft<"));
+}
+
 TEST(Report, RoundZeroHasAGamutAndNoMeasurementsYet) {
   const std::string page = render_report(sample::run(0), "a-run");
   EXPECT_THAT(section_of(page, "gamuts"), Not(HasSubstr("Still awaited")));
@@ -72,10 +109,11 @@ TEST(Report, RoundZeroHasAGamutAndNoMeasurementsYet) {
 
 TEST(Report, HeadSaysWhereTheGameStands) {
   const std::string page = render_report(sample::run(), "a-run");
-  const std::string head = page.substr(page.find("<header>"), page.find("</header>") - page.find("<header>"));
+  const std::string head = head_of(page);
   EXPECT_THAT(
       head, AllOf(HasSubstr("a-run"), HasSubstr("Round 3"), HasSubstr("0.900 ± 0.030"), HasSubstr("the game is over")));
-  EXPECT_THAT(head, AllOf(HasSubstr("Equilibrium is not reached"), HasSubstr("more than twice the error"),
+  EXPECT_THAT(head, AllOf(HasSubstr("Equilibrium is not reached"),
+                          ContainsRegex("Why the game ended: [^.]*0.150 GPa MPa is more than twice the error"),
                           HasSubstr("a cause is named")));
 }
 
@@ -136,7 +174,7 @@ TEST(Report, ErrorsStandBesideTheThesisFigures) {
 }
 
 // Errors of logarithms, printed raw, are other numbers than the summary's.
-TEST(Report, HeldOutErrorsOfADiagnosisAreSaidByItsSummaryAlone) {
+TEST(Report, GainOfADiagnosisIsSaidByItsSummaryAlone) {
   const std::string diagnosis = section_of(render_report(sample::run(), "r"), "diagnosis");
   EXPECT_THAT(diagnosis, AllOf(Not(HasSubstr("8.3 %")), Not(HasSubstr("3.4 %"))));
 }
@@ -172,9 +210,9 @@ TEST(Report, ProposalsShowTheirPictureReasonAndMeasurement) {
   store::RunRecord run = sample::run(1);
   run.rounds.at(1).summary->last = false;
   const std::string proposals = section_of(render_report(run, "r"), "proposals");
-  EXPECT_EQ(count_of(proposals, "<svg class=\"unit\""), 8);
+  EXPECT_EQ(count_of(proposals, "<svg class=\"unit\" viewBox=\"0 0 20 20\""), 8);
   EXPECT_EQ(count_of(proposals, "<td>awaited</td>"), 2 * 4);  // those of round 1 are not measured yet
-  EXPECT_EQ(count_of(proposals, "off by"), 4);
+  EXPECT_EQ(count_of(proposals, "prediction error"), 4);
   EXPECT_EQ(count_of(proposals, "radial bin 2"), 2);
 }
 
@@ -188,7 +226,7 @@ TEST(Report, NewestDesignsComeFirstAmongTheCurves) {
   const std::string curves = section_of(render_report(sample::run(2), "r"), "curves");
   EXPECT_EQ(count_of(curves, "<svg class=\"plot\""), 6 + 4 + 4);
   EXPECT_LT(curves.rfind(", round 2</text>"), curves.find(", round 1</text>"));
-  EXPECT_EQ(count_of(curves, ">model 2</text>"), 14);
+  EXPECT_EQ(count_of(curves, ">model of round 2</text>"), 14);
 }
 
 TEST(ReportText, NumbersCarrySensibleDigits) {

@@ -131,7 +131,7 @@ TEST(Replay, FindsOutputsThatTheJournalHoldsTooManyOrTooFew) {
   recording.add("~out/APPROVAL", CountingCore::approval(5).payload);
   recording.review(2);
   CountingCore core;
-  EXPECT_THAT(replay_journal(folder.path() / "journal.lcm", core).difference, HasSubstr("no longer says"));
+  EXPECT_THAT(replay_journal(folder.path() / "journal.lcm", core).difference, HasSubstr("no longer sends"));
 
   const TemporaryFolder second;
   Recording short_one(second.path());

@@ -23,16 +23,16 @@ EnsembleSettings small_ensemble() {
   return settings;
 }
 
-struct Problem {
+struct PatternProblem {
   std::vector<pattern::Pattern> patterns;
   std::vector<double> values;
   Samples samples() const { return {patterns, values}; }
 };
 
-/// Soft pixels beside rigid ones.
-Problem some_problem(int count, std::uint64_t seed) {
+/// Soft pixels next to rigid ones.
+PatternProblem some_problem(int count, std::uint64_t seed) {
   RandomStream random(seed, "test");
-  Problem problem;
+  PatternProblem problem;
   for (int i = 0; i < count; ++i) {
     const pattern::Pattern pattern = pattern::random_pattern(random);
     double edges = 0.0;
@@ -57,13 +57,13 @@ class WithNetworks : public ::testing::Test {
 };
 
 TEST_F(WithNetworks, LearnWhatNeighbouringPixelsDecide) {
-  const Problem learnt = some_problem(300, 1), unseen = some_problem(100, 2);
+  const PatternProblem learnt = some_problem(300, 1), unseen = some_problem(100, 2);
   const auto ensemble = fit_ensemble(learnt.samples(), 300, small_ensemble());
   EXPECT_GT(rank_correlation(ensemble->means(unseen.patterns), unseen.values), 0.8);
 }
 
 TEST_F(WithNetworks, EqualSeedsGiveEqualBitsWithAndWithoutMemory) {
-  const Problem learnt = some_problem(60, 3);
+  const PatternProblem learnt = some_problem(60, 3);
   EnsembleSettings settings = small_ensemble();
   settings.warm_start = true;
   settings.members = 2;
@@ -75,20 +75,20 @@ TEST_F(WithNetworks, EqualSeedsGiveEqualBitsWithAndWithoutMemory) {
 }
 
 TEST_F(WithNetworks, MembersDisagreeFarFromWhatTheyLearnt) {
-  const Problem learnt = some_problem(150, 4);
+  const PatternProblem learnt = some_problem(150, 4);
   EnsembleSettings settings = small_ensemble();
   settings.members = 3;
   const auto ensemble = fit_ensemble(learnt.samples(), 150, settings);
   std::vector<pattern::Pattern> far;  // nearly all soft, where the design space has half and more rigid
   for (int b = 0; b < pattern::kFreePixels; ++b) far.emplace_back(std::uint64_t{1} << b);
   double at_samples = 0.0, elsewhere = 0.0;
-  for (const Prediction& each : ensemble->predict(learnt.patterns)) at_samples += each.deviation / 150.0;
-  for (const Prediction& each : ensemble->predict(far)) elsewhere += each.deviation / pattern::kFreePixels;
+  for (const PatternPrediction& each : ensemble->predict(learnt.patterns)) at_samples += each.deviation / 150.0;
+  for (const PatternPrediction& each : ensemble->predict(far)) elsewhere += each.deviation / pattern::kFreePixels;
   EXPECT_GT(elsewhere, 1.5 * at_samples);
 }
 
 TEST_F(WithNetworks, AWarmStartGoesOnFromWhatWasLearnt) {
-  const Problem learnt = some_problem(300, 6), unseen = some_problem(100, 7);
+  const PatternProblem learnt = some_problem(300, 6), unseen = some_problem(100, 7);
   EnsembleSettings settings = small_ensemble();
   settings.warm_start = true;
   const auto warm = fit_ensemble(learnt.samples(), 240, settings);

@@ -34,7 +34,7 @@ std::vector<double> values_of(const std::vector<pattern::Pattern>& patterns) {
   return values;
 }
 
-/// The covariance as its definition says, pixel by pixel.
+/// The covariance by its definition, pixel by pixel.
 double defined_covariance(const pattern::Pattern& a, const pattern::Pattern& b, const PatchKernel& kernel) {
   const auto differ = [&](int r, int c) {
     const auto inside = [](int i) { return i < 0 ? -1 - i : i > 9 ? 19 - i : i; };

@@ -13,7 +13,9 @@
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
+#include "sysid/base_calibration.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/provenance.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -61,7 +63,7 @@ Prediction stand_in_fracture(const pattern::Design& design, const material::Toug
   return prediction;
 }
 
-Prediction answer(const Replicates& measured, const ParameterSet& parameters, bool modulus) {
+Prediction stand_in_prediction(const Replicates& measured, const ParameterSet& parameters, bool modulus) {
   if (!modulus) return stand_in_fracture(measured.design, parameters.toughness);
   Prediction prediction;
   prediction.modulus_pa = stand_in_modulus(measured.design, parameters.modulus);
@@ -86,15 +88,15 @@ std::vector<Replicates> measured_designs(int count, const ParameterSet& truth = 
     replicates.design = design;
     replicates.modulus_count = replicates.toughness_count = 1;
     measured.push_back(replicates);
-    measured.back().modulus_pa = *answer(replicates, truth, true).modulus_pa;
-    const Prediction fracture = answer(replicates, truth, false);
+    measured.back().modulus_pa = *stand_in_prediction(replicates, truth, true).modulus_pa;
+    const Prediction fracture = stand_in_prediction(replicates, truth, false);
     measured.back().toughness_pa = *fracture.toughness_pa;
     measured.back().representative_curve = fracture.curve;
   }
   return measured;
 }
 
-/// Answers everything wanted with `tester(design, parameters, modulus)`, the batch's answers in the given order.
+/// Simulates everything wanted with `tester(design, parameters, modulus)`, each batch in the given order.
 template <class AnyCalibration, class Tester>
 Calibrated finish_by(AnyCalibration& calibration, const std::vector<Replicates>& measured, const Tester& tester,
                      bool backwards = false) {
@@ -113,7 +115,7 @@ Calibrated finish_by(AnyCalibration& calibration, const std::vector<Replicates>&
 }
 
 Calibrated finish(Calibration& calibration, const std::vector<Replicates>& measured, bool backwards = false) {
-  return finish_by(calibration, measured, answer, backwards);
+  return finish_by(calibration, measured, stand_in_prediction, backwards);
 }
 
 CalibrationSettings settings() {
@@ -168,7 +170,7 @@ TEST(Calibration, ParametersStayInTheirRanges) {
   EXPECT_EQ(material::parameter_fault(result.parameters), "");
 }
 
-TEST(Calibration, WhatStandsAtAnEndIsNamedDeterminedOnesFirst) {
+TEST(Calibration, ParametersAtTheirBoundsAreNamedDeterminedOnesFirst) {
   CalibrationSettings narrow = settings();
   narrow.ranges.microstructure_modulus[1] = {"e_vw_pa", 2.6e9, 3.2e9};  // the truth is 2.3
   const std::vector<Replicates> measured = measured_designs(12);
@@ -240,7 +242,7 @@ TEST(Calibration, FailedSimulationsDoNotStopIt) {
   int told = 0;
   const Calibrated result =
       finish_by(calibration, measured, [&](const Replicates& design, const ParameterSet& parameters, bool modulus) {
-        return ++told % 3 == 0 ? Prediction{} : answer(design, parameters, modulus);
+        return ++told % 3 == 0 ? Prediction{} : stand_in_prediction(design, parameters, modulus);
       });
   EXPECT_LT(result.toughness_objective_after, result.toughness_objective_before);
   EXPECT_EQ(material::parameter_fault(result.parameters), "");
@@ -285,12 +287,12 @@ TEST(Calibration, ParametersWithoutEffectAreNotDetermined) {
   EXPECT_GE(estimate("toughness.w_if_j_per_m3").high90, truth().toughness.w_if_j_per_m3);
 }
 
-/// Answers everything wanted, with a fracture test of its own.
+/// Simulates everything wanted, with a fracture test of its own.
 Calibrated finish_breaking(const std::vector<Replicates>& measured, const CalibrationSettings& with,
                            Prediction (*fracture)(const pattern::Design&, const material::ToughnessParameters&)) {
   Calibration calibration(measured, with);
   return finish_by(calibration, measured, [&](const Replicates& design, const ParameterSet& parameters, bool modulus) {
-    return modulus ? answer(design, parameters, true) : fracture(design.design, parameters.toughness);
+    return modulus ? stand_in_prediction(design, parameters, true) : fracture(design.design, parameters.toughness);
   });
 }
 
@@ -383,7 +385,7 @@ TEST(PosteriorSearch, LooksAllOverTheRangesBeforeItNarrows) {
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       std::vector<Prediction> predictions;
       for (const std::size_t item : wanted[k].items)
-        predictions.push_back(answer(measured[item], wanted[k].parameters, wanted[k].modulus));
+        predictions.push_back(stand_in_prediction(measured[item], wanted[k].parameters, wanted[k].modulus));
       if (wanted[k].toughness) asked.push_back(to_vector(wanted[k].parameters.toughness));
       calibration.tell(k, predictions);
     }
@@ -488,8 +490,8 @@ TEST(Calibration, SaysThatTheModelMisfitsWhenItLacksAnEffect) {
   EXPECT_GT(result.modulus_fit.chi_squared_replicates, result.modulus_fit.chi_squared);
 }
 
-/// Moduli of designs that the default parameters describe: three replicates that scatter by 0.3 %, and what `floor`
-/// says that numerics leave of each design.
+/// Moduli of designs that the default parameters describe: three replicates that scatter by 0.3 %, and the
+/// discretisation error of `floor` in each design.
 std::vector<Replicates> designs_without_effect(int count, const DiscretisationFloor& floor, RandomStream& random) {
   std::vector<Replicates> measured = measured_designs(count, material::default_parameters());
   for (Replicates& design : measured) {
@@ -541,7 +543,7 @@ std::vector<Replicates> base_materials() {
   return measured;
 }
 
-Prediction base_answer(const Replicates& measured, const ParameterSet& parameters, bool modulus) {
+Prediction base_prediction(const Replicates& measured, const ParameterSet& parameters, bool modulus) {
   const double fraction = measured.design.mixture()->rigid_fraction;
   const std::size_t m = fraction == 0.0 ? 0 : fraction == 1.0 ? 1 : 2;
   const material::ModulusVector theta = to_vector(parameters.modulus);
@@ -572,15 +574,15 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
   const std::vector<Replicates> measured = base_materials();
   const CalibrationSettings base = base_settings();
   BaseCalibration calibration(measured, base);
-  const Calibrated result = finish_by(calibration, measured, base_answer);
+  const Calibrated result = finish_by(calibration, measured, base_prediction);
   expect_all_met(result);
   EXPECT_EQ(result.parameters.toughness.e_vw_pa, 1e9);  // as near to 2.66 GPa as Table A.1 allows
   EXPECT_DOUBLE_EQ(result.parameters.toughness.nu_tb, 0.45);
   EXPECT_EQ(result.parameters.toughness.gamma_per_s, base.start.toughness.gamma_per_s);
   // What is reported is what the final set gives.
   for (std::size_t m = 0; m < 3; ++m) {
-    EXPECT_EQ(result.predictions[m].toughness_pa, base_answer(measured[m], result.parameters, false).toughness_pa);
-    EXPECT_EQ(result.predictions[m].modulus_pa, base_answer(measured[m], result.parameters, true).modulus_pa);
+    EXPECT_EQ(result.predictions[m].toughness_pa, base_prediction(measured[m], result.parameters, false).toughness_pa);
+    EXPECT_EQ(result.predictions[m].modulus_pa, base_prediction(measured[m], result.parameters, true).modulus_pa);
   }
   EXPECT_LT(result.simulations, 60);
   ASSERT_EQ(result.estimates.size(), 17u);
@@ -601,7 +603,7 @@ TEST(BaseCalibration, TakesModulusAndToughnessThatWereMeasuredUnderDifferentCond
     measured.push_back(toughness);
   }
   BaseCalibration calibration(measured, base_settings());
-  expect_all_met(finish_by(calibration, measured, base_answer));
+  expect_all_met(finish_by(calibration, measured, base_prediction));
 }
 
 TEST(BaseCalibration, GoesAsFarAsTheRangesItIsGiven) {
@@ -609,7 +611,7 @@ TEST(BaseCalibration, GoesAsFarAsTheRangesItIsGiven) {
   CalibrationSettings base = base_settings();
   base.ranges.base_toughness[1] = {"e_vw_pa", 1e7, 5e9};
   BaseCalibration calibration(measured, base);
-  const Calibrated result = finish_by(calibration, measured, base_answer);
+  const Calibrated result = finish_by(calibration, measured, base_prediction);
   EXPECT_GT(result.parameters.toughness.e_vw_pa, 1e9);
   EXPECT_LT(result.after.toughness_max, 0.01);
 }
@@ -620,15 +622,15 @@ TEST(BaseCalibration, KeepsWhatHasNoBudget) {
   base.start.toughness.nu_tb = 0.31;
   base.toughness_budget = 0;
   BaseCalibration moduli(measured, base);
-  const Calibrated without_toughness = finish_by(moduli, measured, base_answer);
+  const Calibrated without_toughness = finish_by(moduli, measured, base_prediction);
   EXPECT_EQ(to_vector(without_toughness.parameters.toughness), to_vector(base.start.toughness));
   EXPECT_LT(without_toughness.after.modulus_max, 3e-4);
-  EXPECT_EQ(without_toughness.before.toughness_count, 3) << "what is kept is told, too";
+  EXPECT_EQ(without_toughness.before.toughness_count, 3) << "errors of kept parameters are reported too";
   EXPECT_EQ(without_toughness.after.toughness_max, without_toughness.before.toughness_max);
   base.toughness_budget = 60;
   base.modulus_budget = 0;
   BaseCalibration toughness(measured, base);
-  const Calibrated without_modulus = finish_by(toughness, measured, base_answer);
+  const Calibrated without_modulus = finish_by(toughness, measured, base_prediction);
   EXPECT_EQ(to_vector(without_modulus.parameters.modulus), to_vector(base.start.modulus));
   EXPECT_LT(without_modulus.after.toughness_max, 0.01);
 }

@@ -7,6 +7,8 @@
 
 #include "base/files.hpp"
 #include "base/random.hpp"
+#include "base/result.hpp"
+#include "sysid/discretisation_floor.hpp"
 #include "sysid/feature_posterior.hpp"
 #include "sysid/features.hpp"
 
@@ -56,16 +58,16 @@ TEST(Likelihood, KnowsWhatTheFloorShiftsInAllDesignsAtOnce) {
   const std::vector<Replicates> measured(2, measured_modulus(1e9, 2e7, 4));
   DiscretisationFloor floor = DiscretisationFloor::none();
   floor.log_modulus_common_sd = 0.05;
-  const auto told = [&](double first, double second) {
+  const auto likelihood = [&](double first, double second) {
     return modulus_likelihood_of(measured, {modulus(1e9 * std::exp(first)), modulus(1e9 * std::exp(second))}, floor, 0);
   };
-  // Covariance a on the diagonal and c beside it: eigenvalues a + c of what is alike, a - c of what differs.
+  // Covariance a on the diagonal and c beside it: eigenvalues a + c of the common part, a - c of the difference.
   const double replicates = 1e-4, a = replicates + 25e-4, c = 25e-4, r = 0.05;
-  EXPECT_NEAR(told(r, r).fit.chi_squared, 2 * r * r / (a + c), 1e-9);
-  EXPECT_NEAR(told(r, -r).fit.chi_squared, 2 * r * r / replicates, 1e-9);
-  EXPECT_NEAR(told(r, r).deviance, 2 * r * r / (a + c) + std::log((a + c) * (a - c)), 1e-9);
-  EXPECT_FALSE(told(r, r).fit.misfit());
-  EXPECT_TRUE(told(r, -r).fit.misfit());
+  EXPECT_NEAR(likelihood(r, r).fit.chi_squared, 2 * r * r / (a + c), 1e-9);
+  EXPECT_NEAR(likelihood(r, -r).fit.chi_squared, 2 * r * r / replicates, 1e-9);
+  EXPECT_NEAR(likelihood(r, r).deviance, 2 * r * r / (a + c) + std::log((a + c) * (a - c)), 1e-9);
+  EXPECT_FALSE(likelihood(r, r).fit.misfit());
+  EXPECT_TRUE(likelihood(r, -r).fit.misfit());
 }
 
 TEST(GoodnessOfFit, CallsNoMisfitWhereNothingWasFittedAndTheFloorExplainsAll) {
@@ -181,7 +183,7 @@ TEST(DiscretisationFloor, IsReadFromTheTableOfItsFidelity) {
   EXPECT_THROW(read_discretisation_floor(file, tester::Fidelity::tiny), InputError);
 }
 
-TEST(DiscretisationFloor, NoneLeavesNothingOfAnyQuantity) {
+TEST(DiscretisationFloor, NoneIsZeroForEveryQuantity) {
   const DiscretisationFloor none = DiscretisationFloor::none();
   for (const double sd : {none.log_modulus_sd, none.log_toughness_sd, none.log_peak_sd, none.log_modulus_common_sd,
                           none.log_toughness_common_sd, none.log_peak_common_sd, none.log_modulus_trend_sd,
@@ -220,7 +222,7 @@ TEST(FeaturePosterior, NarrowsAParameterAsTheRootOfTheDesigns) {
     FeaturePosterior posterior(problem.data, problem.start, floor);
     posterior.set_base(problem.trial);
     const Eigen::MatrixXd covariance = posterior.posterior_covariance(problem.slopes);
-    EXPECT_NEAR(covariance(kNu0, kNu0), 1.0 / 12.0, 1e-9);  // what the range alone says
+    EXPECT_NEAR(covariance(kNu0, kNu0), 1.0 / 12.0, 1e-9);  // of the range alone
     return std::sqrt(covariance(kW0 + 2, kW0 + 2));
   };
   // Residuals of zero shrink the learnt variance by freedom / (freedom + designs) too.
@@ -253,29 +255,29 @@ TEST(FeaturePosterior, WhatTheEmulatorMayBeWrongByIsNoEvidence) {
   };
   EXPECT_GT(evidence(0.0), 10.0);
   EXPECT_LT(evidence(1.0), 0.3 * evidence(0.0));
-  // Nor is not to know an advantage.
+  // An uncertain emulator is no advantage either.
   EXPECT_GT(cost_of(problem, {}, none, Eigen::VectorXd(), 1.0), cost_of(problem, {}, none, Eigen::VectorXd(), 0.0));
 }
 
 TEST(FeaturePosterior, TenDesignsOfATenthOfTheWeightCountAsOne) {
   const DiscretisationFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
-  struct Told {
+  struct DataWeight {
     double information, cost;  // on the parameter that acts; of a change of all toughnesses
   };
-  const auto told = [&](int designs, double evidence) {
+  const auto weight_of = [&](int designs, double evidence) {
     OneSlope problem(designs);
     for (measurement::Replicates& design : problem.data.measured) design.toughness_pa *= 1.5;
     problem.data.evidence.assign(problem.data.measured.size(), evidence);
     FeaturePosterior posterior(problem.data, problem.start, floor);
     posterior.set_base(problem.trial);
     const std::vector<FeatureChange> changes(problem.data.measured.size(), FeatureChange{0.1, 0.0});
-    return Told{1.0 / posterior.posterior_covariance(problem.slopes)(kW0 + 2, kW0 + 2),
-                posterior(problem.start, changes, 0.1, Eigen::VectorXd())};
+    return DataWeight{1.0 / posterior.posterior_covariance(problem.slopes)(kW0 + 2, kW0 + 2),
+                      posterior(problem.start, changes, 0.1, Eigen::VectorXd())};
   };
-  const Told whole = told(4, 1.0), tenths = told(40, 0.1);
+  const DataWeight whole = weight_of(4, 1.0), tenths = weight_of(40, 0.1);
   EXPECT_NEAR(tenths.information / whole.information, 1.0, 1e-9);
   EXPECT_NEAR(tenths.cost, whole.cost, 1e-9);
-  EXPECT_GT(told(40, 1.0).information / whole.information, 2.0);
+  EXPECT_GT(weight_of(40, 1.0).information / whole.information, 2.0);
 }
 
 TEST(FeaturePosterior, NorIsAnErrorThatGrowsWithTheRigidFraction) {

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "sysid/errors.hpp"
+#include "sysid/weights.hpp"
+
 namespace nacre::sysid {
 namespace {
 

@@ -26,7 +26,7 @@ Prediction fracture(double toughness_pa) {
   return prediction;
 }
 
-TEST(PredictionStore, GivesTheSameAnswerFromTheFileAsWhenItWasPutIn) {
+TEST(PredictionStore, GivesTheSamePredictionFromTheFileAsWhenItWasPutIn) {
   const auto file = fresh_file("same");
   Prediction put;
   {
@@ -67,7 +67,7 @@ TEST(PredictionStore, ARecordCutOffByACrashIsDroppedAndTheRestKept) {
   EXPECT_EQ(again.find("c")->toughness_pa, 3e5);
 }
 
-TEST(PredictionStore, AFileWhoseFirstLineWasCutOffIsBegunAgain) {
+TEST(PredictionStore, AFileWhoseFirstLineWasCutOffStartsAnew) {
   for (const char* left : {"", "nacre pred"}) {
     const auto file = fresh_file("begun");
     write_file_atomically(file, left);

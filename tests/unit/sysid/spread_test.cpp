@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "sysid/emulator.hpp"
-#include "sysid/fit.hpp"
+#include "sysid/least_squares_fit.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -108,7 +108,7 @@ std::vector<CoordinateInterval> modulus_intervals(int designs, int failing) {
 
 TEST(LeastSquaresFit, TakesADegreeOfFreedomForEachParameterThatTheDataTell) {
   EXPECT_NEAR(fitted_moduli(12, 0)->freedom_taken(), 6.0, 0.05);
-  EXPECT_NEAR(fitted_moduli(12, 20)->freedom_taken(), 6.0, 0.05) << "a design that fails says nothing";
+  EXPECT_NEAR(fitted_moduli(12, 20)->freedom_taken(), 6.0, 0.05) << "a design that fails carries no information";
   EXPECT_NEAR(fitted_moduli(4, 0)->freedom_taken(), 4.0, 0.05);
 }
 

@@ -84,7 +84,8 @@ TEST(Overprint, ByHalfAPixelMovesEveryBoundaryByOneElement) {
   // Along the row through the middle of the blocks: 9 rigid elements, 1 interface, 9 soft, 1 interface.
   const auto phases_in_row = [](const Grid& g, int row) {
     std::string text;
-    for (int column = 0; column < g.columns; ++column) text += "sri."[g.phase[g.index(row, column)]];
+    for (int column = 0; column < g.columns; ++column)
+      text += "sri."[static_cast<std::size_t>(g.phase[g.index(row, column)])];
     return text;
   };
   const std::string before = phases_in_row(base, 4), after = phases_in_row(grid, 4);

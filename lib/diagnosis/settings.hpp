@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "diagnosis/fracture_discretisation.hpp"
+#include "diagnosis/modulus_floor.hpp"
+#include "material/ranges.hpp"
+#include "tester/names.hpp"
+#include "tester/simulation.hpp"
+
+namespace nacre::diagnosis {
+
+struct DiagnosisSettings {
+  material::ParameterSet start;                                  ///< initial guess of the base fit
+  material::ParameterRanges ranges = material::thesis_ranges();  ///< moduli and ratios may leave them: CoordinateMap
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
+  std::uint64_t seed = 1;
+  ModulusFloor floor;                              ///< from data/discretisation_floor.toml
+  FractureDiscretisation fracture_discretisation;  ///< from the same file
+  int search_budget = 40;            ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
+  std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
+  int threads = 0;                   ///< 0 all allowed cores
+  bool check_discretisation = true;  ///< simulate three specimens with other discretisations too
+  double name_level = 0.003;         ///< family-wise level of a name
+  double unexplained_level = 0.01;   ///< level of a misfit without a name
+  /// Called now and then with the share of the work done (0..1) and the present step.
+  std::function<void(double, std::string_view)> progress = {};
+};
+
+/// Specimens that are too few for any statement: the result is undecided().
+class TooFewSpecimens : public InputError {
+  using InputError::InputError;
+};
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,20 @@
+#pragma once
+// What the diagnosis of each round says.
+
+#include <string>
+#include <string_view>
+
+#include "report/exhibit.hpp"
+#include "store/run_record.hpp"
+
+namespace nacre::report {
+
+Exhibit diagnosis_exhibit(const store::RunRecord& run);
+
+/// A verdict of a diagnosis, as its wire value, in plain words.
+std::string verdict_in_words(const std::string& verdict);
+
+/// The status of a candidate effect, as its wire value, in plain words: possible cause, ruled out, ...
+std::string status_in_words(std::string_view status);
+
+}  // namespace nacre::report

@@ -1,0 +1,12 @@
+#pragma once
+// Prediction errors of a game, round by round, with those of the thesis (Table 3.5) and of predictions that know
+// nothing of structure.
+
+#include "report/exhibit.hpp"
+#include "store/run_record.hpp"
+
+namespace nacre::report {
+
+Exhibit error_exhibit(const store::RunRecord& run);
+
+}  // namespace nacre::report

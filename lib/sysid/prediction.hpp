@@ -1,0 +1,17 @@
+#pragma once
+// Simulated E, T and curve of one design.
+
+#include <optional>
+
+#include "tester/curve.hpp"
+
+namespace nacre::sysid {
+
+/// Result of the testers for one design; each part only where its test was requested and succeeded.
+struct Prediction {
+  std::optional<double> modulus_pa;
+  std::optional<double> toughness_pa;
+  tester::Curve curve;
+};
+
+}  // namespace nacre::sysid
