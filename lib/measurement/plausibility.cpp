@@ -103,7 +103,7 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
     const bool sudden = i > 3 && step > 10.0 * std::max(most_step, usual_step);
     if (power != 0.0 && up && power * power_of_ten(values[*up - 1], values[*up]) < 0.0) return up;
     if (power != 0.0 && sudden) {
-      if (once) return i;
+      if (once && power > 0.0) return i;
       up = i;
       continue;
     }
@@ -131,12 +131,14 @@ std::optional<ImportFault> implausible_record(const TesterRecord& record, std::s
   if (auto fault = jump_fault(record, ordinate, force, false, file)) return fault;
   const auto peak = static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
   const double least = *std::min_element(force.begin(), force.end());
-  const double moved = extension[peak] - extension[std::min(begin, peak)];
-  if (peak > begin && force[peak] > 0.0 && -least < force[peak] && moved < -0.5 * range_of(extension)) {
+  const std::vector<double> loading(extension.begin() + static_cast<std::ptrdiff_t>(std::min(begin, peak)),
+                                    extension.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
+  const double moved = loading.back() - loading.front();
+  if (force[peak] > 0.0 && -least < force[peak] && loading.size() > 2 && moved < -0.5 * range_of(loading)) {
     return ImportFault{file, record.line[peak], heading_of(record, abscissa),
                        fmt::format("the {} falls from {:.5g} to {:.5g} while the force rises: the position counts "
                                    "downwards; expected a column that grows in tension, named in the sheet as {}_column",
-                                   to_string(abscissa), extension[begin], extension[peak], to_string(abscissa))};
+                                   to_string(abscissa), loading.front(), loading.back(), to_string(abscissa))};
   }
   return std::nullopt;
 }

@@ -67,6 +67,7 @@ class TableFinder {
 
   tl::expected<ExportTables, ImportFault> find() {
     const char certain = delimiter_of(lines_);
+    has_numbers_ = certain != '\0';
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       if (certain != '\0' && delimiter != certain) continue;
       tables_ = {.delimiter = delimiter, .blocks = {}};
@@ -115,7 +116,7 @@ class TableFinder {
       if (cell.empty()) continue;
       const bool bracketed = cell.size() > 2 && (cell.front() == '(' || cell.front() == '[') &&
                              (cell.back() == ')' || cell.back() == ']');
-      ++(bracketed || is_unit(bare_unit(cell)) ? units : others);
+      ++(bracketed || (!is_number(cell) && is_unit(bare_unit(cell))) ? units : others);
     }
     return units > others;
   }
@@ -352,7 +353,7 @@ class TableFinder {
   }
 
   void note_resemblance(std::size_t index, const std::vector<ColumnName>& names) {
-    if (resemblance_ || names.size() < 2) return;
+    if (resemblance_ || names.size() < 2 || !has_numbers_) return;
     if (holds(names, abscissa()) == holds(names, ordinate())) return;
     const Quantity missing = holds(names, ordinate()) ? abscissa() : ordinate();
     const std::string& asked = choice_.of(missing);
@@ -404,6 +405,7 @@ class TableFinder {
   ExportTables tables_;
   Cells cells_;
   std::vector<std::size_t> before_;  ///< lines of words since the last table
+  bool has_numbers_ = false;
   std::optional<ImportFault> resemblance_, fault_;
 };
 

@@ -258,7 +258,7 @@ class PartFinder {
 
   void add(const TableBlock& block, const std::string& name, tl::expected<ColumnSeries, ImportFault> series,
            const std::string& title = {}, bool is_new = false) {
-    Found part{.part = {.name = name, .heading = block.heading, .series = {}, .fault = {}}, .title = title};
+    Found part{.part = {.name = name, .heading = block.heading, .series = {}, .fault = {}}, .title = title, .headings = {}};
     for (const ColumnName& column : block.columns) part.headings += plain_words(column.heading) + "|";
     if (!series) {
       part.part.fault = series.error();

@@ -180,6 +180,13 @@ class SeriesReader {
         series_.warnings.push_back(fmt::format("{}: column `{}` does not move and is left out, `{}` is taken for the {}",
                                                file_, other.name->heading, taken.name->heading, to_string(quantity)));
     }
+    for (const std::size_t i : columns_) {
+      const ColumnName& name = block_.columns[i];
+      const auto is_it = [&](const Candidate& each) { return each.column == i; };
+      if (name.quantity != quantity || std::any_of(all.begin(), all.end(), is_it)) continue;
+      column.not_taken.push_back(name.heading);
+      others.push_back(fmt::format("`{}` (not named by the sheet)", name.heading));
+    }
     if (others.empty()) return;
     series_.decisions.push_back(
         fmt::format("{}: `{}` taken, not {}", to_string(quantity), taken.name->heading, fmt::join(others, ", ")));

@@ -213,6 +213,22 @@ TEST_F(Layouts, OfMakersAreReadInTheirLanguages) {
   expect_read(table("Time (s)|Displacement (m)|Force (kN)\n", "{:.3f}|{:.8f}|{:.7f}\n", 1e-3, 1e-3));
 }
 
+// As public scripts describe them: CellScale, MTI, Mecmesin, Trapezium X, TestSuite's timed acquisition, a fatigue bench.
+TEST_F(Layouts, OfFurtherMakersAreRead) {
+  expect_read(table("SetName\tCycle\tTime_S\tSize_mm\tDisplacement_mm\tForce_N\n",
+                    "pull\t1-Stretch\t{0:.3f}\t54\t{1:.5f}\t{2:.4f}\n"));
+  expect_read(table("6/11/2018 11:47:32 AM\nOperator: N. N.\n\nTime,Load,Disp\nsec,N,mm\n", "{0:.3f},{2:.4f},{1:.5f}\n"));
+  expect_read(table("Reading,Time (s),Load (N),Displacement (mm)\n", "1,{0:.3f},{2:.4f},{1:.5f}\n"));
+  expect_read(table("\"1 _ 1\",\"\",\"\"\n\"Time\",\"Force\",\"Stroke\"\n\"sec\",\"N\",\"mm\"\n",
+                    "\"{0:.3f}\",\"{2:.4f}\",\"{1:.5f}\"\n"));
+  expect_read(table("Test Run Name,t7\n\nDAQ- Crosshead\n\nCrosshead ,Load ,Time \nmm,kN,sec\n", "{1:.5f},{2:.7f},{0:.3f}\n",
+                    1.0, 1e-3));
+  expect_read(table("Machine_N_cycles,Machine_Time (sec),Machine_Load (kN),Machine_Displacement (mm)\n",
+                    "0,{0:.3f},{2:.7f},{1:.5f}\n", 1.0, 1e-3));
+  expect_read(table("Time in s\tChange in length in mm\tStandard force in N\n", "{0:.3f}\t{1:.5f}\t{2:.4f}\n"));
+  expect_read(table("sep=;\nElapsed Time [s];Grip Separation [mm];Axial Load [N];Temperature [C]\n", "{0:.3f};{1:.5f};{2:.4f};21\n"));
+}
+
 TEST_F(Layouts, WithSetPointsLateralAndRawColumnsGiveTheMeasurement) {
   const std::string twice = "{0:.3f},{3:.5f},{1:.5f},{4:.4f},{2:.4f}\n";
   for (const std::string& heading :
