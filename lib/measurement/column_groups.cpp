@@ -102,11 +102,14 @@ std::vector<ColumnGroup> groups_by_label(const TableBlock& block, bool at_the_en
   return groups.size() > 1 ? groups : std::vector<ColumnGroup>{};
 }
 
+/// What a heading shares with its like in another group.
+std::string key_of(const ColumnName& name) { return name.name + "|" + bare_unit(name.unit); }
+
 /// Groups by headings that occur again, named by the labels in a line above.
 std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
   std::map<std::string, std::vector<std::size_t>> places;
   for (std::size_t i = 0; i < block.columns.size(); ++i) {
-    if (is_curve_quantity(block.columns[i])) places[block.columns[i].name].push_back(i);
+    if (is_curve_quantity(block.columns[i])) places[key_of(block.columns[i])].push_back(i);
   }
   std::size_t of_extension = 1, of_force = 1;
   for (const auto& [name, columns] : places) {
@@ -128,7 +131,7 @@ std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
     groups[g].name = std::to_string(g + 1);
     std::size_t first = block.columns.size();  // of the columns that are this group's alone
     for (const std::size_t column : groups[g].columns) {
-      if (places[block.columns[column].name].size() == count) first = std::min(first, column);
+      if (places[key_of(block.columns[column])].size() == count) first = std::min(first, column);
     }
     for (std::size_t i = std::min(first, block.labels.size() - !block.labels.empty()) + 1; i-- > 0 && !block.labels.empty();) {
       if (block.labels[i].empty()) continue;

@@ -59,7 +59,8 @@ struct ReducedTest {
 Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe);
 
 /// Strain rate of loading, 1/s: the slope of strain over time by least squares between 10 and 40 % of the peak stress;
-/// where fewer than five points lie there, up to the peak. Nothing without time, or where time does not advance.
+/// where fewer than five points lie there, up to the peak. Of a test that was held there, the rate at which it moves.
+/// Nothing without time, or where time does not advance.
 std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve);
 
 }  // namespace nacre::measurement
