@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "report/report_style.hpp"
+#include "report/page_style.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::report {
