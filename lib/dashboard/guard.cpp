@@ -141,8 +141,10 @@ std::string random_token() {
 std::optional<Response> refused(const AccessRules& rules, const Request& request) {
   if (request.path.size() > kLongestPath) return error_response(414, "the path is too long");
   if (!is_named(rules, request.header("host")))
-    return error_response(421, "this server has no such name: open the address that nacre dashboard printed, or start it with "
-                               "--allow-host and the name that the browser uses");
+    return error_response(
+        421,
+        "this server has no such name: open the address that nacre dashboard printed, or start it with "
+        "--allow-host and the name that the browser uses");
   if (!rules.token.empty()) {
     if (auto answer = welcome(rules, request)) return answer;
     if (!knows_token(rules, request))

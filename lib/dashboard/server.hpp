@@ -12,8 +12,8 @@ namespace nacre::dashboard {
 
 struct ServerSettings {
   std::string host = "127.0.0.1";
-  int port = 8765;    ///< 0: any free one
-  std::string token;  ///< see AccessRules
+  int port = 8765;                              ///< 0: any free one
+  std::string token;                            ///< see AccessRules
   std::vector<std::string> further_hosts = {};  ///< names that a tunnel or a proxy keeps, with or without a port
 };
 

@@ -30,8 +30,8 @@ struct ColumnChoice {
   bool operator==(const ColumnChoice&) const = default;
 };
 
-/// How well a heading answers to a wanted name: 3 it is the name, 2 it is but for case, accents and the unit, 1 it holds
-/// its words, 0 not at all.
+/// How well a heading answers to a wanted name: 3 it is the name, 2 it is but for case, accents and the unit, 1 it
+/// holds its words, 0 not at all.
 int match(std::string_view heading, std::string_view name_without_unit, std::string_view wanted);
 
 }  // namespace nacre::measurement

@@ -12,7 +12,8 @@ namespace nacre::measurement {
 namespace {
 
 bool is_curve_quantity(const ColumnName& name) {
-  return (name.quantity == Quantity::extension || name.quantity == Quantity::force || name.quantity == Quantity::time) &&
+  return (name.quantity == Quantity::extension || name.quantity == Quantity::force ||
+          name.quantity == Quantity::time) &&
          name.role == ColumnRole::measured;
 }
 
@@ -37,7 +38,8 @@ bool is_label(std::string_view word) {
   if (word.starts_with('#')) word.remove_prefix(1);
   if (word.empty() || word.size() > 3) return false;
   const bool digits = word.find_first_not_of("0123456789") == std::string_view::npos;
-  const bool letter_and_digits = word.size() > 1 && word.substr(1).find_first_not_of("0123456789") == std::string_view::npos;
+  const bool letter_and_digits =
+      word.size() > 1 && word.substr(1).find_first_not_of("0123456789") == std::string_view::npos;
   return digits || word.size() == 1 || letter_and_digits;
 }
 
@@ -51,8 +53,9 @@ struct Labelled {
 };
 
 std::string joined(std::vector<std::string> words) {
-  return std::accumulate(words.begin(), words.end(), std::string(),
-                         [](const std::string& all, const std::string& word) { return all.empty() ? word : all + " " + word; });
+  return std::accumulate(
+      words.begin(), words.end(), std::string(),
+      [](const std::string& all, const std::string& word) { return all.empty() ? word : all + " " + word; });
 }
 
 /// Takes a label off the end or the beginning of a name: `force run #1`, `2 force`, `specimen a force`.
@@ -70,7 +73,8 @@ Labelled labelled(const std::string& name, bool at_the_end) {
     }
   }
   if (!at_the_end && !label.empty() && words.size() > 1 && is_specimen_word(words.back())) return {name, ""};
-  if (!at_the_end && label.empty() && words.size() > 2 && is_specimen_word(words.back()) && is_label(words[words.size() - 2])) {
+  if (!at_the_end && label.empty() && words.size() > 2 && is_specimen_word(words.back()) &&
+      is_label(words[words.size() - 2])) {
     label = words.back() + " " + words[words.size() - 2];
     words.resize(words.size() - 2);
   }
@@ -133,7 +137,8 @@ std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
     for (const std::size_t column : groups[g].columns) {
       if (places[key_of(block.columns[column])].size() == count) first = std::min(first, column);
     }
-    for (std::size_t i = std::min(first, block.labels.size() - !block.labels.empty()) + 1; i-- > 0 && !block.labels.empty();) {
+    for (std::size_t i = std::min(first, block.labels.size() - !block.labels.empty()) + 1;
+         i-- > 0 && !block.labels.empty();) {
       if (block.labels[i].empty()) continue;
       groups[g].name = block.labels[i];
       break;
@@ -153,9 +158,8 @@ std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoi
   std::iota(all.columns.begin(), all.columns.end(), std::size_t{0});
   const auto is_exact = [&](Quantity quantity) {
     const std::string& wanted = choice.of(quantity);
-    return std::count_if(block.columns.begin(), block.columns.end(), [&](const ColumnName& name) {
-             return match(name.heading, name.name, wanted) >= 2;
-           }) == 1;
+    return std::count_if(block.columns.begin(), block.columns.end(),
+                         [&](const ColumnName& name) { return match(name.heading, name.name, wanted) >= 2; }) == 1;
   };
   // Who names both columns exactly has chosen the specimen.
   if (is_exact(Quantity::extension) && is_exact(Quantity::force)) return {all};

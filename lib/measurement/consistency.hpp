@@ -51,7 +51,7 @@ struct ReplicateGroup {
   std::vector<std::string> valid = {};   ///< of them those that count now
   std::vector<ProposedOutlier> proposed = {};
   GroupState state = GroupState::more_needed;
-  int wanted = 0;                                       ///< specimens still to be tested
+  int wanted = 0;  ///< specimens still to be tested
   /// Of the valid ones: mean, and relative standard deviation of two and more; nothing where there are none.
   std::optional<double> mean_pa = {}, scatter = {};
   std::optional<double> mean_without_pa = {}, scatter_without = {};  ///< the same without the proposed outliers

@@ -26,7 +26,8 @@ std::string sparkline_of(const std::vector<double>& values) {
   const double range = *most - *least;
   std::string line;
   for (std::size_t i = 0; i < std::min(kWidth, values.size()); ++i) {
-    const double value = values[i * (values.size() - 1) / std::max<std::size_t>(1, std::min(kWidth, values.size()) - 1)];
+    const double value =
+        values[i * (values.size() - 1) / std::max<std::size_t>(1, std::min(kWidth, values.size()) - 1)];
     const double height = range > 0.0 ? (value - *least) / range : 0.0;
     line += kBars[static_cast<std::size_t>(std::lround(7.0 * height))];
   }
@@ -60,8 +61,12 @@ ListedColumn listed(const TableBlock& block, std::size_t column, const std::vect
 }
 
 ListedPart listed(const TesterPart& part, const ExportTables& tables) {
-  ListedPart shown{.name = part.name, .line = static_cast<int>(part.heading) + 1, .rows = part.series.line.size(),
-                   .columns = {}, .decisions = part.series.decisions, .fault = {}};
+  ListedPart shown{.name = part.name,
+                   .line = static_cast<int>(part.heading) + 1,
+                   .rows = part.series.line.size(),
+                   .columns = {},
+                   .decisions = part.series.decisions,
+                   .fault = {}};
   if (part.fault) shown.fault = to_string(*part.fault);
   for (const TableBlock& block : tables.blocks) {
     if (block.heading != part.heading) continue;

@@ -47,10 +47,10 @@ class Exports {
     if (!part) {
       return tl::unexpected(ImportFault{
           sheet, row.line, "part",
-          row.part.empty() ? fmt::format("`{}` holds {} tests, expected the name or number of one in the column `part`: {}",
-                                         row.file, records->size(), part.error())
-                           : fmt::format("`{}`, but `{}` holds {} tests: {}", row.part, row.file, records->size(),
-                                         part.error())});
+          row.part.empty()
+              ? fmt::format("`{}` holds {} tests, expected the name or number of one in the column `part`: {}",
+                            row.file, records->size(), part.error())
+              : fmt::format("`{}`, but `{}` holds {} tests: {}", row.part, row.file, records->size(), part.error())});
     }
     const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), *part}, &row);
     if (!is_first) {
@@ -74,7 +74,8 @@ class Exports {
 
  private:
   /// Place of the part that a sheet names or numbers; the error lists them all.
-  static tl::expected<std::size_t, std::string> part_of(const std::vector<TesterRecord>& records, const std::string& wanted) {
+  static tl::expected<std::size_t, std::string> part_of(const std::vector<TesterRecord>& records,
+                                                        const std::string& wanted) {
     constexpr std::size_t kMostNamed = 20;
     if (records.size() == 1 && wanted.empty()) return 0;
     std::vector<std::string> names;
@@ -139,7 +140,8 @@ class Exports {
   fs::path folder_;
   std::set<std::string> used_;
   std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
-  std::map<std::pair<std::string, std::size_t>, const SheetRow*> owners_;  ///< key and part -> the first row of the test
+  std::map<std::pair<std::string, std::size_t>, const SheetRow*>
+      owners_;  ///< key and part -> the first row of the test
 };
 
 /// Stress over strain as recorded, from `begin` on; `factor` of extension and of force where their units are assumed.
@@ -150,9 +152,10 @@ tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row, con
   curve.strain.reserve(record.line.size());
   curve.stress_pa.reserve(record.line.size());
   for (std::size_t i = 0; i < record.line.size(); ++i) {
-    curve.strain.push_back(record.strain.empty() ? units.extension_factor *
-                                                       (record.extension_mm[i] - record.extension_mm.front()) / row.gauge_mm
-                                                 : record.strain[i] - record.strain.front());
+    curve.strain.push_back(record.strain.empty()
+                               ? units.extension_factor * (record.extension_mm[i] - record.extension_mm.front()) /
+                                     row.gauge_mm
+                               : record.strain[i] - record.strain.front());
     curve.stress_pa.push_back(record.stress_pa.empty() ? record.force_n[i] * pa_per_newton : record.stress_pa[i]);
   }
   return curve;
@@ -211,7 +214,8 @@ std::map<std::string, std::string> provenance_of(const TesterRecord& from, const
                                               {"last_line", fmt::format("{}", from.line.back())},
                                               {"width_mm", fmt::format("{}", row.width_mm)},
                                               {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
-  for (const Quantity quantity : {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
+  for (const Quantity quantity :
+       {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
     const auto& column = from.column(quantity);
     if (!column) continue;
     cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
@@ -223,13 +227,14 @@ std::map<std::string, std::string> provenance_of(const TesterRecord& from, const
 
 /// The units of columns without one, from what the record shows when its numbers are taken as they stand.
 tl::expected<AssumedUnits, std::string> settle_units(const TesterRecord& from, const SheetRow& row, Toe toe) {
-  const bool lacks = lacks_unit(from, Quantity::extension) || lacks_unit(from, Quantity::force) ||
-                     lacks_unit(from, Quantity::time);
+  const bool lacks =
+      lacks_unit(from, Quantity::extension) || lacks_unit(from, Quantity::force) || lacks_unit(from, Quantity::time);
   for (const Quantity quantity : {Quantity::strain, Quantity::stress}) {
     if (lacks_unit(from, quantity))
-      return tl::unexpected(fmt::format("column `{}` has no unit that is read, expected one of {} in the heading, or in the "
-                                        "column `unit` of the sheet",
-                                        from.column(quantity)->heading, expected_units(quantity)));
+      return tl::unexpected(
+          fmt::format("column `{}` has no unit that is read, expected one of {} in the heading, or in the "
+                      "column `unit` of the sheet",
+                      from.column(quantity)->heading, expected_units(quantity)));
   }
   if (!lacks) return AssumedUnits{};
   const tester::Curve curve = nominal_curve(from, row, {});
@@ -245,11 +250,14 @@ tl::expected<AssumedUnits, std::string> settle_units(const TesterRecord& from, c
 }
 
 /// The strain rate: the sheet's, else that of the record, else the planned one.
-void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<double>& time_s, const tester::Curve& curve,
-              ImportedSpecimen& imported, std::vector<std::string>& warnings) {
+void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<double>& time_s,
+              const tester::Curve& curve, ImportedSpecimen& imported, std::vector<std::string>& warnings) {
   double& rate_per_s = imported.record.conditions.strain_rate_per_s;
   const auto recorded = strain_rate(time_s, curve);
-  imported.rate_source = row.rate_is_given ? "sheet" : recorded ? "record" : row.planned_rate_per_s ? "planned" : "default";
+  imported.rate_source = row.rate_is_given        ? "sheet"
+                         : recorded               ? "record"
+                         : row.planned_rate_per_s ? "planned"
+                                                  : "default";
   if (row.rate_is_given) return;
   if (recorded) {
     rate_per_s = rounded(*recorded, 3);
@@ -271,15 +279,14 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   };
   if (from.line.size() < kFewestCurveRows)
     return fault("", fmt::format("has {} rows of data, expected at least {}", from.line.size(), kFewestCurveRows));
-  ImportedSpecimen imported{.record = row.record,
-                            .file = shown_file,
-                            .line = row.line,
-                            .maker = from.maker,
-                            .extension_column = from.column(Quantity::extension)
-                                                    ? from.column(Quantity::extension)->heading
-                                                    : std::string(),
-                            .gauge_mm = row.gauge_mm,
-                            .decisions = from.decisions};
+  ImportedSpecimen imported{
+      .record = row.record,
+      .file = shown_file,
+      .line = row.line,
+      .maker = from.maker,
+      .extension_column = from.column(Quantity::extension) ? from.column(Quantity::extension)->heading : std::string(),
+      .gauge_mm = row.gauge_mm,
+      .decisions = from.decisions};
   tester::Curve curve = nominal_curve(from, row, {});
   const PullStart start = pull_start(from.time_s, curve);
   if (const auto implausible = implausible_record(from, start.row, shown_file)) return tl::unexpected(*implausible);
@@ -332,14 +339,15 @@ std::string doubt_of_gauge(const TesterRecord& from, const SheetRow& row) {
   constexpr double kNarrowSectionMm = 57.0;
   if (!from.column(Quantity::extension)) return "";
   const TakenColumn& taken = *from.column(Quantity::extension);
-  const std::string also =
-      taken.not_taken.empty() ? "" : fmt::format(" (the file also has `{}`)", fmt::join(taken.not_taken, "`, `"));
+  std::vector<std::string> others = taken.not_taken;
+  others.insert(others.end(), from.strains.begin(), from.strains.end());
+  const std::string also = others.empty() ? "" : fmt::format(" (the file also has `{}`)", fmt::join(others, "`, `"));
   if (std::count(taken.not_taken.begin(), taken.not_taken.end(), taken.heading) > 0)
     return fmt::format("`{}` occurs twice in the file, the first was taken: expected names that differ", taken.heading);
   if (row.record.test == tester::TestKind::toughness) return "";
   const bool short_gauge = row.gauge_mm <= kNarrowSectionMm;
   const bool is_named = !row.columns.extension.empty();
-  const bool of_grips = taken.gauge == Gauge::grips || (!is_named && !taken.not_taken.empty());
+  const bool of_grips = taken.gauge == Gauge::grips || (!is_named && !others.empty());
   if (short_gauge && taken.gauge != Gauge::extensometer && of_grips)
     return fmt::format(
         "gauge_mm {} is an extensometer's, but the extension is that of `{}`{}: expected extension_column with the "

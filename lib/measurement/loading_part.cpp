@@ -8,8 +8,8 @@
 namespace nacre::measurement {
 namespace {
 
-constexpr double kFrom = 0.1, kTo = 0.4;            // of the peak stress
-constexpr double kStill = 0.3, kJump = 3.0;         // of the expected strain of a stretch
+constexpr double kFrom = 0.1, kTo = 0.4;             // of the peak stress
+constexpr double kStill = 0.3, kJump = 3.0;          // of the expected strain of a stretch
 constexpr std::size_t kFewestRows = 5, kFewest = 3;  // of a stretch; left out at least
 
 double clock_at(const std::vector<double>& time_s, std::size_t row) {
@@ -39,8 +39,8 @@ double middle_strain(const tester::Curve& curve, std::size_t begin, std::size_t 
 }
 
 /// The pull's first row in a stretch of which the beginning stands still or is taken back.
-PullStart start_within(const std::vector<double>& time_s, const tester::Curve& curve, std::size_t begin, std::size_t end,
-                       double speed) {
+PullStart start_within(const std::vector<double>& time_s, const tester::Curve& curve, std::size_t begin,
+                       std::size_t end, double speed) {
   double largest = 0.0;
   std::size_t jump = end;
   for (std::size_t i = begin + 1; i <= end; ++i) {
@@ -50,8 +50,7 @@ PullStart start_within(const std::vector<double>& time_s, const tester::Curve& c
     jump = i;
   }
   const double duration = clock_at(time_s, end) - clock_at(time_s, begin);
-  if (largest > kJump * speed * duration)
-    return {.row = jump, .zero_strain = curve.strain[jump], .was_tared = true};
+  if (largest > kJump * speed * duration) return {.row = jump, .zero_strain = curve.strain[jump], .was_tared = true};
   const double hold = middle_strain(curve, begin > end - begin ? begin - (end - begin) : 0, begin + 1);
   const double start = clock_at(time_s, end) - (curve.strain[end] - hold) / speed;
   std::size_t row = begin;

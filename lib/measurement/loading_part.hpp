@@ -15,8 +15,8 @@ struct PullStart {
   bool was_tared = false;  ///< the strain jumps there
 };
 
-/// Goes back from the rise between 10 and 40 % of the peak stress to where the strain stands still or jumps. `time_s` may
-/// be empty: then rows count as equally far apart.
+/// Goes back from the rise between 10 and 40 % of the peak stress to where the strain stands still or jumps. `time_s`
+/// may be empty: then rows count as equally far apart.
 PullStart pull_start(const std::vector<double>& time_s, const tester::Curve& curve);
 
 /// First and last row of the rise from 10 to 40 % of the peak stress.

@@ -51,15 +51,16 @@ std::optional<ImportFault> jump_fault(const TesterRecord& record, Quantity quant
                                       bool once, const std::string& file) {
   const auto at = decimal_jump(values, once);
   if (!at) return std::nullopt;
-  return ImportFault{file, record.line[*at], heading_of(record, quantity),
-                     fmt::format("{} jumps from {:.5g} to {:.5g}, by a power of ten from one row to the next: were decimal "
-                                 "marks lost in a spreadsheet? expected the machine's own export",
-                                 to_string(quantity), values[*at - 1], values[*at])};
+  return ImportFault{
+      file, record.line[*at], heading_of(record, quantity),
+      fmt::format("{} jumps from {:.5g} to {:.5g}, by a power of ten from one row to the next: were decimal "
+                  "marks lost in a spreadsheet? expected the machine's own export",
+                  to_string(quantity), values[*at - 1], values[*at])};
 }
 
 bool is_among(const Usual& usual, const UnitEvidence& evidence, double extension, double force) {
-  return usual.modulus_pa.hold(evidence.modulus_pa * force / extension) && usual.peak_pa.hold(evidence.peak_pa * force) &&
-         usual.failure_strain.hold(evidence.failure_strain * extension);
+  return usual.modulus_pa.hold(evidence.modulus_pa * force / extension) &&
+         usual.peak_pa.hold(evidence.peak_pa * force) && usual.failure_strain.hold(evidence.failure_strain * extension);
 }
 
 /// The clock is assumed to run in seconds where only then the speed is a testing machine's.
@@ -71,15 +72,17 @@ void assume_time(const TesterRecord& record, const UnitEvidence& evidence, Assum
   const bool others = kMmPerMinute.hold(speed / kMinute) || kMmPerMinute.hold(speed / kMillisecond);
   const std::string column = heading_of(record, Quantity::time);
   if (seconds && !others) {
-    units.said.push_back(fmt::format("column `{}` has no unit that is read; s is assumed: only then the speed, {:.3g} "
-                                     "mm/min, is a testing machine's",
-                                     column, speed));
+    units.said.push_back(
+        fmt::format("column `{}` has no unit that is read; s is assumed: only then the speed, {:.3g} "
+                    "mm/min, is a testing machine's",
+                    column, speed));
     return;
   }
   units.time_factor = 0.0;
-  units.said.push_back(fmt::format("column `{}` has no unit that is read, and its numbers do not tell it; the clock is "
-                                   "not used: expected the column `unit` in the sheet (s, ms, min)",
-                                   column));
+  units.said.push_back(
+      fmt::format("column `{}` has no unit that is read, and its numbers do not tell it; the clock is "
+                  "not used: expected the column `unit` in the sheet (s, ms, min)",
+                  column));
 }
 
 }  // namespace
@@ -135,10 +138,11 @@ std::optional<ImportFault> implausible_record(const TesterRecord& record, std::s
                                     extension.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
   const double moved = loading.back() - loading.front();
   if (force[peak] > 0.0 && -least < force[peak] && loading.size() > 2 && moved < -0.5 * range_of(loading)) {
-    return ImportFault{file, record.line[peak], heading_of(record, abscissa),
-                       fmt::format("the {} falls from {:.5g} to {:.5g} while the force rises: the position counts "
-                                   "downwards; expected a column that grows in tension, named in the sheet as {}_column",
-                                   to_string(abscissa), loading.front(), loading.back(), to_string(abscissa))};
+    return ImportFault{
+        file, record.line[peak], heading_of(record, abscissa),
+        fmt::format("the {} falls from {:.5g} to {:.5g} while the force rises: the position counts "
+                    "downwards; expected a column that grows in tension, named in the sheet as {}_column",
+                    to_string(abscissa), loading.front(), loading.back(), to_string(abscissa))};
   }
   return std::nullopt;
 }
@@ -166,16 +170,19 @@ tl::expected<AssumedUnits, std::string> assumed_units(const TesterRecord& record
   }
   if (no_length || no_force) {
     const std::string columns =
-        no_length && no_force ? fmt::format("columns `{}` and `{}` have", heading_of(record, Quantity::extension),
-                                            heading_of(record, Quantity::force))
-                              : fmt::format("column `{}` has", heading_of(record, no_length ? Quantity::extension : Quantity::force));
+        no_length && no_force
+            ? fmt::format("columns `{}` and `{}` have", heading_of(record, Quantity::extension),
+                          heading_of(record, Quantity::force))
+            : fmt::format("column `{}` has", heading_of(record, no_length ? Quantity::extension : Quantity::force));
     if (fitting.size() != 1)
-      return tl::unexpected(fmt::format("{} no unit that is read, and {} of the usual ones would make a plausible test; "
-                                        "expected the unit in the heading, or the column `unit` in the sheet (as `mm N`)",
-                                        columns, fitting.empty() ? "none" : "several"));
-    units.said.push_back(fmt::format("{} no unit that is read; {} is assumed: with no other usual one the modulus and the "
-                                     "strength are those of the material",
-                                     columns, fitting.front()));
+      return tl::unexpected(
+          fmt::format("{} no unit that is read, and {} of the usual ones would make a plausible test; "
+                      "expected the unit in the heading, or the column `unit` in the sheet (as `mm N`)",
+                      columns, fitting.empty() ? "none" : "several"));
+    units.said.push_back(
+        fmt::format("{} no unit that is read; {} is assumed: with no other usual one the modulus and the "
+                    "strength are those of the material",
+                    columns, fitting.front()));
   }
   if (lacks_unit(record, Quantity::time)) assume_time(record, evidence, units);
   return units;

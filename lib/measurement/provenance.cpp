@@ -15,13 +15,40 @@
 namespace nacre::measurement {
 namespace {
 
-constexpr std::array<std::string_view, 34> kHeading = {
-    "specimen",     "test",          "file",           "part",           "maker",           "encoding",
-    "delimiter",    "decimal_mark",  "first_line",     "last_line",      "time_column",     "time_unit",
-    "time_not_taken", "extension_column", "extension_unit", "extension_not_taken", "force_column", "force_unit",
-    "force_not_taken", "strain_column", "strain_unit",  "strain_not_taken", "stress_column", "stress_unit", "stress_not_taken",
-    "width_mm",     "gauge_mm",      "modulus_pa",     "modulus_error_pa", "toe_strain",    "toughness_pa",
-    "strain_rate_per_s", "rate_source", "decisions"};
+constexpr std::array<std::string_view, 34> kHeading = {"specimen",
+                                                       "test",
+                                                       "file",
+                                                       "part",
+                                                       "maker",
+                                                       "encoding",
+                                                       "delimiter",
+                                                       "decimal_mark",
+                                                       "first_line",
+                                                       "last_line",
+                                                       "time_column",
+                                                       "time_unit",
+                                                       "time_not_taken",
+                                                       "extension_column",
+                                                       "extension_unit",
+                                                       "extension_not_taken",
+                                                       "force_column",
+                                                       "force_unit",
+                                                       "force_not_taken",
+                                                       "strain_column",
+                                                       "strain_unit",
+                                                       "strain_not_taken",
+                                                       "stress_column",
+                                                       "stress_unit",
+                                                       "stress_not_taken",
+                                                       "width_mm",
+                                                       "gauge_mm",
+                                                       "modulus_pa",
+                                                       "modulus_error_pa",
+                                                       "toe_strain",
+                                                       "toughness_pa",
+                                                       "strain_rate_per_s",
+                                                       "rate_source",
+                                                       "decisions"};
 
 std::string quoted(std::string text) {
   for (char& letter : text) letter = letter == '\n' || letter == '\r' ? ' ' : letter;

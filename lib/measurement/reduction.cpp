@@ -18,11 +18,11 @@ constexpr double kVague = 0.2;      // standard error over slope above which a p
 // Standard errors up to which a bend is taken for noise. A missed toe lowers the modulus, a missed straight part costs
 // only points; if noise shortened windows, it would select among their slopes.
 constexpr double kErrorsOfToe = 0.5, kErrorsOfBend = 1.0, kErrorsWhileVague = 2.5;
-constexpr double kWidened = 1.25;           // factor by which a window is widened at once
-constexpr double kSeparated = 0.02;         // of the peak stress
-constexpr double kMostGivenBack = 0.05;     // of the largest strain: noise and recoil of the grips
-constexpr double kNoisy = 0.2;              // noise of the strain over its step above which rows are not ordered by it
-constexpr double kWithinNoise = 6.0;        // standard deviations below the largest strain
+constexpr double kWidened = 1.25;        // factor by which a window is widened at once
+constexpr double kSeparated = 0.02;      // of the peak stress
+constexpr double kMostGivenBack = 0.05;  // of the largest strain: noise and recoil of the grips
+constexpr double kNoisy = 0.2;           // noise of the strain over its step above which rows are not ordered by it
+constexpr double kWithinNoise = 6.0;     // standard deviations below the largest strain
 constexpr std::size_t kFewestPoints = 3, kEnoughPoints = 5;
 
 struct FittedLine {
@@ -73,7 +73,8 @@ std::vector<double> nearest_rising(const std::vector<double>& values) {
 double noise_of(const std::vector<double>& values, std::size_t count) {
   constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> bends;
-  for (std::size_t i = 1; i + 1 < count; ++i) bends.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    bends.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
   return bends.empty() ? 0.0 : quantile(std::move(bends), 0.5) / (kMedianOfNormal * std::sqrt(6.0));
 }
 
@@ -82,8 +83,9 @@ double noise_of(const std::vector<double>& values, std::size_t count) {
 FirstLoading first_loading(const tester::Curve& curve, std::size_t peak) {
   FirstLoading path;
   const double noise = noise_of(curve.strain, peak + 1);
-  const double range = *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1) -
-                       curve.strain.front();
+  const double range =
+      *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1) -
+      curve.strain.front();
   if (noise > kNoisy * std::abs(range) / static_cast<double>(peak + 1)) {
     path.strain_noise = noise;
     path.stress_noise_pa = noise_of(curve.stress_pa, peak + 1);
@@ -282,28 +284,39 @@ tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, do
   return shifted;
 }
 
-constexpr double kHeld = 1.2;                // a test that was held is that much faster where it moves
-constexpr std::size_t kMostStretches = 12;  // of the window of the rate
+constexpr double kStill = 0.25, kMoving = 0.5;  // of a rate
+constexpr std::size_t kStretches = 4;           // of the window of the rate
 
-/// Rate of the stretches of a window, the median of the strain: a hold has none.
-double moving_rate(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window) {
-  const std::size_t stretches = std::clamp<std::size_t>(window.points() / kEnoughPoints, 1, kMostStretches);
-  std::vector<std::pair<double, double>> rates;  // and the strain to which each applies
-  double all = 0.0;
-  for (std::size_t i = 0; i < stretches; ++i) {
-    const SlopeWindow stretch{window.first + i * window.points() / stretches,
-                              window.first + (i + 1) * window.points() / stretches - 1};
-    const double rate = std::abs(fit(times, strains, stretch).slope);
-    rates.emplace_back(rate, rate * (times[stretch.last] - times[stretch.first]));
-    all += rates.back().second;
+/// The longest part of a window in which the strain moves at half of `rate` and more.
+SlopeWindow longest_moving(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window,
+                           double rate) {
+  SlopeWindow longest{window.first, window.first};
+  std::size_t begin = window.first;
+  for (std::size_t i = window.first; i + kEnoughPoints <= window.last; ++i) {
+    const std::size_t next = i + kEnoughPoints;
+    if (strains[next] - strains[i] < kMoving * rate * (times[next] - times[i])) {
+      begin = i + 1;
+    } else if (next - begin > longest.last - longest.first) {
+      longest = {begin, next};
+    }
   }
-  std::sort(rates.begin(), rates.end());
-  double passed = 0.0;
-  for (const auto& [rate, strained] : rates) {
-    passed += strained;
-    if (passed >= 0.5 * all) return rate;
+  return longest;
+}
+
+/// Where a test was held in a window, the part in which it moved; else the window.
+SlopeWindow without_hold(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window) {
+  if (window.points() < 2 * kStretches * kEnoughPoints) return window;
+  double slowest = 0.0, fastest = 0.0;
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    const SlopeWindow stretch{window.first + i * window.points() / kStretches,
+                              window.first + (i + 1) * window.points() / kStretches - 1};
+    const double rate = fit(times, strains, stretch).slope;
+    slowest = i == 0 ? rate : std::min(slowest, rate);
+    fastest = std::max(fastest, rate);
   }
-  return rates.empty() ? 0.0 : rates.back().first;
+  if (slowest > kStill * fastest) return window;
+  const SlopeWindow moving = longest_moving(times, strains, window, fastest);
+  return moving.points() >= kEnoughPoints ? moving : window;
 }
 
 }  // namespace
@@ -384,9 +397,7 @@ std::optional<double> strain_rate(const std::vector<double>& time_s, const teste
     if (window.points() >= kEnoughPoints) break;
   }
   if (window.points() < kFewestPoints) window = {0, times.size() - 1};
-  const double whole = std::abs(fit(times, ticks.strain, window).slope);
-  const double moving = moving_rate(times, ticks.strain, window);
-  const double rate_per_s = moving > kHeld * whole ? moving : whole;
+  const double rate_per_s = std::abs(fit(times, ticks.strain, without_hold(times, ticks.strain, window)).slope);
   return rate_per_s > 0.0 ? std::optional(rate_per_s) : std::nullopt;
 }
 

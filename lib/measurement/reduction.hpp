@@ -42,10 +42,10 @@ Result<LinearPart> linear_part(const tester::Curve& curve);
 /// The properties and the curve of a test.
 struct ReducedTest {
   tester::Curve curve;  ///< nominal; all cycles kept; to separation when the specimen separated
-  double modulus_pa = 0.0, modulus_error_pa = 0.0;  ///< with its standard error
+  double modulus_pa = 0.0, modulus_error_pa = 0.0;      ///< with its standard error
   double straight_from_pa = 0.0, straight_to_pa = 0.0;  ///< stresses between which the straight part lies
-  double toe_strain = 0.0;                          ///< toe that was compensated; 0 when it is kept
-  double toe_kept = 0.0;                            ///< toe that was not compensated, beyond kLargestToe
+  double toe_strain = 0.0;                              ///< toe that was compensated; 0 when it is kept
+  double toe_kept = 0.0;                                ///< toe that was not compensated, beyond kLargestToe
   double peak_stress_pa = 0.0;
   double stiffening = 0.0;      ///< peak stress over modulus times its strain: below 1 for materials that yield
   double failure_strain = 0.0;  ///< at separation, else the largest of the record

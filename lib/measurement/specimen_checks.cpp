@@ -30,11 +30,11 @@ void collect_modulus_doubt(const SpecimenRecord& record, std::vector<std::string
   const double ratio = part->slope_pa / usual;
   if (ratio > 1.0 / kFar && ratio < kFar) return;
   const bool per_cent = ratio * kPerCent > 1.0 / kFar && ratio * kPerCent < kFar && ratio < 1.0;
-  doubts.push_back(fmt::format("column curve: its modulus, {:.3g} Pa, is unusual for {}{}", part->slope_pa,
-                               record.design.name(),
-                               per_cent ? fmt::format("; is strain in per cent, not a ratio? Then it would be {:.3g} Pa",
-                                                      kPerCent * part->slope_pa)
-                                        : "; are the units strain 1 and stress Pa?"));
+  doubts.push_back(fmt::format(
+      "column curve: its modulus, {:.3g} Pa, is unusual for {}{}", part->slope_pa, record.design.name(),
+      per_cent
+          ? fmt::format("; is strain in per cent, not a ratio? Then it would be {:.3g} Pa", kPerCent * part->slope_pa)
+          : "; are the units strain 1 and stress Pa?"));
 }
 
 /// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.

@@ -47,9 +47,9 @@ constexpr std::array<std::string_view, 6> kMeasured = {
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 /// Columns that the set computes from the export: the sheet's own columns of these names are dropped.
-constexpr std::array<std::string_view, 8> kWorkedOut = {
-    "modulus_pa", "toughness_pa", "curve", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa",
-    "modulus_error_pa"};
+constexpr std::array<std::string_view, 8> kWorkedOut = {"modulus_pa",         "toughness_pa",    "curve",
+                                                        "peak_stress_pa",     "failure_strain",  "toe_strain",
+                                                        "initial_modulus_pa", "modulus_error_pa"};
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {

@@ -22,7 +22,8 @@ bool is_blank(std::string_view line) { return line.find_first_not_of(" \t,;|\"\r
 
 bool has_letter(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || static_cast<unsigned char>(letter) > 127;
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+           static_cast<unsigned char>(letter) > 127;
   });
 }
 
@@ -102,7 +103,8 @@ class TableFinder {
     std::vector<ColumnName> names;
     if (cells.size() < 2 || cells.size() > kMostColumns) return names;
     for (const std::string_view cell : cells)
-      names.push_back(has_letter(cell) && !is_number(cell) ? recognise_column(cell) : ColumnName{.heading = std::string(cell)});
+      names.push_back(has_letter(cell) && !is_number(cell) ? recognise_column(cell)
+                                                           : ColumnName{.heading = std::string(cell)});
     return names;
   }
   bool is_heading(const std::vector<ColumnName>& names) const {
@@ -114,8 +116,8 @@ class TableFinder {
     std::size_t units = 0, others = 0;
     for (const std::string_view cell : cells) {
       if (cell.empty()) continue;
-      const bool bracketed = cell.size() > 2 && (cell.front() == '(' || cell.front() == '[') &&
-                             (cell.back() == ')' || cell.back() == ']');
+      const bool bracketed =
+          cell.size() > 2 && (cell.front() == '(' || cell.front() == '[') && (cell.back() == ')' || cell.back() == ']');
       ++(bracketed || (!is_number(cell) && is_unit(bare_unit(cell))) ? units : others);
     }
     return units > others;
@@ -180,7 +182,8 @@ class TableFinder {
       const auto numbers = std::count_if(below.begin(), below.end(), is_number);
       if (numbers > 0 && !is_unit_row(below)) break;
       if (!is_unit_row(below)) {
-        if (seen > 0 || below.size() < 2 || filled(below) < 2 || is_heading(names_in(below)) || !leads_to_units(next)) break;
+        if (seen > 0 || below.size() < 2 || filled(below) < 2 || is_heading(names_in(below)) || !leads_to_units(next))
+          break;
       } else if (units.empty()) {
         units.assign(below.begin(), below.end());
         block.unit_line = next;
@@ -202,7 +205,15 @@ class TableFinder {
   }
 
   std::size_t read_block(std::size_t heading) {
-    TableBlock block{.heading = heading, .unit_line = heading, .title = {}, .columns = {}, .labels = {}, .lines = {}, .begins = {}, .cells = {}, .breaks = {}};
+    TableBlock block{.heading = heading,
+                     .unit_line = heading,
+                     .title = {},
+                     .columns = {},
+                     .labels = {},
+                     .lines = {},
+                     .begins = {},
+                     .cells = {},
+                     .breaks = {}};
     std::vector<std::string> units = look_above(block);
     const Cells names(cells_);
     const std::size_t next = look_below(block, heading + 1, units);
@@ -277,7 +288,8 @@ class TableFinder {
         after_gap = false;
         title.clear();
         if (!take_row(block, next)) return lines_.size();
-      } else if (is_title(cells_) && has_letter(lines_[next]) && (after_gap || block.lines.empty() || !is_cut_off(block))) {
+      } else if (is_title(cells_) && has_letter(lines_[next]) &&
+                 (after_gap || block.lines.empty() || !is_cut_off(block))) {
         before_.push_back(next);
         title += (title.empty() ? "" : " ") + words_in(cells_);
       } else if (after_gap && !block.lines.empty()) {
@@ -335,7 +347,8 @@ class TableFinder {
 
   /// Two or three columns of numbers and nothing else: (time,) extension, force in s, mm, N.
   bool read_bare_table() {
-    if (!(choice_ == ColumnChoice{.extension = {}, .force = {}, .time = {}, .strain = {}, .stress = {}, .unit = choice_.unit}))
+    if (!(choice_ ==
+          ColumnChoice{.extension = {}, .force = {}, .time = {}, .strain = {}, .stress = {}, .unit = choice_.unit}))
       return false;
     tables_ = {.delimiter = delimiter_of(lines_), .blocks = {}};
     std::size_t first = 0;
@@ -343,7 +356,16 @@ class TableFinder {
     if (first + kFewestCurveRows > lines_.size()) return false;
     split(first);
     if (cells_.size() < 2 || cells_.size() > 3 || !std::all_of(cells_.begin(), cells_.end(), is_number)) return false;
-    TableBlock block{.heading = first, .unit_line = first, .is_bare = true, .title = {}, .columns = {}, .labels = {}, .lines = {}, .begins = {}, .cells = {}, .breaks = {}};
+    TableBlock block{.heading = first,
+                     .unit_line = first,
+                     .is_bare = true,
+                     .title = {},
+                     .columns = {},
+                     .labels = {},
+                     .lines = {},
+                     .begins = {},
+                     .cells = {},
+                     .breaks = {}};
     const bool has_time = cells_.size() == 3;
     for (const char* name : {"time s", "extension mm", "force N"}) {
       if (has_time || std::string_view(name) != "time s") block.columns.push_back(recognise_column(name));
@@ -361,10 +383,10 @@ class TableFinder {
     for (const ColumnName& name : names) headings.push_back(name.heading);
     resemblance_ = ImportFault{
         file_, static_cast<int>(index) + 1, std::string(to_string(missing)),
-        asked.empty() ? fmt::format("no column of {} among `{}`, expected a name such as {}, or {}_column in the sheet",
-                                    to_string(missing), fmt::join(headings, "`, `"), expected_names(missing),
-                                    to_string(missing))
-                      : fmt::format("no column `{}` among `{}`", asked, fmt::join(headings, "`, `"))};
+        asked.empty()
+            ? fmt::format("no column of {} among `{}`, expected a name such as {}, or {}_column in the sheet",
+                          to_string(missing), fmt::join(headings, "`, `"), expected_names(missing), to_string(missing))
+            : fmt::format("no column `{}` among `{}`", asked, fmt::join(headings, "`, `"))};
   }
 
   /// The first line that could be a heading, above the first row of numbers.

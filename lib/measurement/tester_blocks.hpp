@@ -16,8 +16,8 @@ namespace nacre::measurement {
 
 /// Where lines of words or empty lines stand between two rows of numbers.
 struct TableBreak {
-  std::size_t row = 0;   ///< the first row after it
-  std::string title;     ///< the words; empty for empty lines
+  std::size_t row = 0;  ///< the first row after it
+  std::string title;    ///< the words; empty for empty lines
   bool operator==(const TableBreak&) const = default;
 };
 

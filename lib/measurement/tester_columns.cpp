@@ -11,12 +11,15 @@ namespace nacre::measurement {
 namespace {
 
 /// Words of names that tell where an extension was recorded; any other name is ambiguous.
-constexpr std::array<std::string_view, 12> kGripWords = {
-    "crosshead", "travel",   "traverse", "traversenweg", "weg",    "stroke",
-    "standardweg", "course", "carrera",  "corsa",        "ストローク", "横梁"};
-constexpr std::array<std::string_view, 11> kExtensometerWords = {
-    "extensometer", "laengenaenderungsaufnehmer", "feindehnung", "feindehnungsaufnehmer", "wegaufnehmer", "extensometre",
-    "extensometro", "estensimetro",               "estensometro", "伸び計",                "引伸计"};
+constexpr std::array<std::string_view, 12> kGripWords = {"crosshead", "travel", "traverse",    "traversenweg",
+                                                         "weg",       "stroke", "standardweg", "course",
+                                                         "carrera",   "corsa",  "ストローク",  "横梁"};
+constexpr std::array<std::string_view, 11> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
+                                                                 "feindehnung",  "feindehnungsaufnehmer",
+                                                                 "wegaufnehmer", "extensometre",
+                                                                 "extensometro", "estensimetro",
+                                                                 "estensometro", "伸び計",
+                                                                 "引伸计"};
 
 template <class Words>
 bool holds_any(std::string_view name, const Words& words) {

@@ -27,7 +27,7 @@ enum class Gauge { unknown, grips, extensometer };
 struct ColumnName {
   std::string heading = {};  ///< as in the file
   std::optional<Quantity> quantity = {};
-  int rank = 0;  ///< among columns of one quantity the smallest is preferred
+  int rank = 0;           ///< among columns of one quantity the smallest is preferred
   std::string unit = {};  ///< as written with the name; empty when it is not
   Gauge gauge = Gauge::unknown;
   ColumnRole role = ColumnRole::measured;

@@ -16,7 +16,9 @@ namespace {
 
 /// Umlauts and accents between Latin letters: no pair of bytes of another encoding looks like that.
 std::size_t western_letters(std::string_view bytes) {
-  const auto is_latin = [](char letter) { return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z'); };
+  const auto is_latin = [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
+  };
   std::size_t found = 0;
   for (std::size_t i = 1; i + 1 < bytes.size(); ++i)
     found += static_cast<unsigned char>(bytes[i]) >= 0xC0 && is_latin(bytes[i - 1]) && is_latin(bytes[i + 1]);
@@ -80,7 +82,10 @@ std::string from_windows_1252(std::string_view bytes) {
   std::string text;
   for (const char byte : bytes) {
     const auto value = static_cast<unsigned char>(byte);
-    const std::uint32_t point = value == 0x92 ? kApostrophe : value == 0x96 ? kEnDash : value == 0x89 ? kPerMille : value;
+    const std::uint32_t point = value == 0x92   ? kApostrophe
+                                : value == 0x96 ? kEnDash
+                                : value == 0x89 ? kPerMille
+                                                : value;
     append_utf8(text, point >= 0x80 && point < 0xA0 ? '?' : point);
   }
   return text;

@@ -27,6 +27,7 @@ TesterRecord record_of(TesterPart part, const ExportTables& tables) {
   record.stress_pa = std::move(series.of(Quantity::stress));
   record.line = std::move(series.line);
   record.taken = std::move(series.taken);
+  record.strains = std::move(series.strains);
   record.decisions = std::move(series.decisions);
   record.warnings = std::move(series.warnings);
   record.fault = std::move(part.fault);
@@ -66,9 +67,8 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
     record.header = header;
     record.is_bare = first.is_bare;
     if (first.is_bare)
-      record.warnings.push_back(
-          fmt::format("{}: has no heading, {}extension in mm, force in N are assumed", file,
-                      record.column(Quantity::time) ? "time in s, " : ""));
+      record.warnings.push_back(fmt::format("{}: has no heading, {}extension in mm, force in N are assumed", file,
+                                            record.column(Quantity::time) ? "time in s, " : ""));
     record.decisions.insert(record.decisions.end(), found.notes.begin(), found.notes.end());
   }
   return records;

@@ -23,25 +23,28 @@ struct TesterRecord {
   std::string encoding;  ///< of the file
   char delimiter = ',';
   char decimal_mark = '.';
-  std::string part;                ///< as the file names it; else its number
+  std::string part;  ///< as the file names it; else its number
   std::vector<double> time_s;
   std::vector<double> extension_mm;
   std::vector<double> force_n;
-  std::vector<double> strain;     ///< where the sheet names its column
-  std::vector<double> stress_pa;  ///< where the sheet names its column
+  std::vector<double> strain;                 ///< where the sheet names its column
+  std::vector<double> stress_pa;              ///< where the sheet names its column
   std::vector<int> line;                      ///< of the file
   std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file has them
   std::array<std::optional<TakenColumn>, kQuantities> taken;
+  std::vector<std::string> strains;    ///< headings of strains that were not taken
   std::vector<std::string> decisions;  ///< which columns were taken and why, as sentences
   std::vector<std::string> warnings;
   bool is_bare = false;              ///< the file has no heading
   std::optional<ImportFault> fault;  ///< why this part of the file cannot be used
 
-  const std::optional<TakenColumn>& column(Quantity quantity) const { return taken[static_cast<std::size_t>(quantity)]; }
+  const std::optional<TakenColumn>& column(Quantity quantity) const {
+    return taken[static_cast<std::size_t>(quantity)];
+  }
 };
 
-/// Reads all tests of an export. `bytes` as on disk, `file` for messages. Errors name line, column and what was expected;
-/// of a file with several parts, the fault of one stays with it.
+/// Reads all tests of an export. `bytes` as on disk, `file` for messages. Errors name line, column and what was
+/// expected; of a file with several parts, the fault of one stays with it.
 tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::string_view bytes, const std::string& file,
                                                                         const ColumnChoice& choice = {});
 

@@ -26,17 +26,17 @@ struct Sign {
 };
 
 /// No-break, narrow no-break, thin and figure spaces; typographic apostrophes; true and full-width minus signs.
-constexpr Sign kSigns[] = {{"\xC2\xA0", ' '},      {"\xE2\x80\xAF", ' '},  {"\xE2\x80\x89", ' '}, {"\xE2\x80\x87", ' '},
-                           {"\xE2\x80\x99", '\''}, {"\xCA\xBC", '\''},     {"\xC2\xB4", '\''},    {"\xE2\x88\x92", '-'},
-                           {"\xEF\xBC\x8D", '-'},  {"\xE2\x80\x93", '-'},  {"\xE2\x80\x92", '-'}, {"\xEF\xBC\x8B", '+'},
+constexpr Sign kSigns[] = {{"\xC2\xA0", ' '},      {"\xE2\x80\xAF", ' '}, {"\xE2\x80\x89", ' '}, {"\xE2\x80\x87", ' '},
+                           {"\xE2\x80\x99", '\''}, {"\xCA\xBC", '\''},    {"\xC2\xB4", '\''},    {"\xE2\x88\x92", '-'},
+                           {"\xEF\xBC\x8D", '-'},  {"\xE2\x80\x93", '-'}, {"\xE2\x80\x92", '-'}, {"\xEF\xBC\x8B", '+'},
                            {"\xEF\xBC\x8C", ','},  {"\xEF\xBC\x8E", '.'}};
 
 /// `text` with plain signs, ASCII digits, and no blank around it.
 std::string with_plain_signs(std::string_view text) {
   std::string plain;
   while (!text.empty()) {
-    const auto sign =
-        std::find_if(std::begin(kSigns), std::end(kSigns), [&](const Sign& each) { return text.starts_with(each.utf8); });
+    const auto sign = std::find_if(std::begin(kSigns), std::end(kSigns),
+                                   [&](const Sign& each) { return text.starts_with(each.utf8); });
     if (sign != std::end(kSigns)) {
       plain += sign->plain;
       text.remove_prefix(sign->utf8.size());
@@ -126,8 +126,7 @@ std::optional<DecimalMark> evidence_of(std::string_view text) {
 bool looks_like_number(std::string_view text) {
   text = trimmed(text);
   if (text.empty() || text.size() > 60) return false;
-  if (text.find_first_of("0123456789") == std::string_view::npos &&
-      text.find("\xEF\xBC") == std::string_view::npos)
+  if (text.find_first_of("0123456789") == std::string_view::npos && text.find("\xEF\xBC") == std::string_view::npos)
     return false;
   return instrument_number(text, DecimalMark::point) || instrument_number(text, DecimalMark::comma);
 }
@@ -203,8 +202,8 @@ std::optional<double> clock_seconds(std::string_view text) {
     const std::size_t end = std::min(text.find(':'), text.size());
     const std::string_view field = text.substr(0, end);
     const bool last = end == text.size();
-    const auto value = instrument_number(
-        field, field.find(',') != std::string_view::npos ? DecimalMark::comma : DecimalMark::point);
+    const auto value =
+        instrument_number(field, field.find(',') != std::string_view::npos ? DecimalMark::comma : DecimalMark::point);
     if (!value || *value < 0.0 || (!last && *value != std::floor(*value))) return std::nullopt;
     seconds = 60.0 * seconds + *value;
     ++fields;

@@ -33,7 +33,8 @@ struct ColumnMark {
 /// mark and whose larger ones are all grouped by threes has grouped thousands.
 ColumnMark column_mark(std::span<const std::string_view> cells);
 
-/// Seconds of a time of day or a duration, `10:00:00.540`, `02:03,5`, `2026-03-12T10:00:00`; nothing when it is not one.
+/// Seconds of a time of day or a duration, `10:00:00.540`, `02:03,5`, `2026-03-12T10:00:00`; nothing when it is not
+/// one.
 std::optional<double> clock_seconds(std::string_view text);
 
 }  // namespace nacre::measurement

@@ -40,11 +40,16 @@ double range_of(const std::vector<double>& values) {
 }
 
 ColumnSeries rows_of_series(const ColumnSeries& series, std::size_t begin, std::size_t end) {
-  ColumnSeries part{.taken = series.taken, .decisions = series.decisions, .warnings = series.warnings, .decimal_mark = series.decimal_mark};
+  ColumnSeries part{.taken = series.taken,
+                    .strains = series.strains,
+                    .decisions = series.decisions,
+                    .warnings = series.warnings,
+                    .decimal_mark = series.decimal_mark};
   const auto cut = [&](const auto& values) {
     using Values = std::decay_t<decltype(values)>;
     if (values.empty()) return Values{};
-    return Values(values.begin() + static_cast<std::ptrdiff_t>(begin), values.begin() + static_cast<std::ptrdiff_t>(end));
+    return Values(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                  values.begin() + static_cast<std::ptrdiff_t>(end));
   };
   for (std::size_t q = 0; q < kQuantities; ++q) part.values[q] = cut(series.values[q]);
   part.line = cut(series.line);
@@ -57,16 +62,16 @@ void append(ColumnSeries& series, const ColumnSeries& more) {
   series.line.insert(series.line.end(), more.line.begin(), more.line.end());
 }
 
-/// Rows at which the record begins anew: the extension falls at once from far away to its beginning, and the force rises
-/// again; or the clock does the same.
+/// Rows at which the record begins anew: the extension falls at once from far away to its beginning, and the force
+/// rises again; or the clock does the same.
 std::vector<std::size_t> restarts_of(const ColumnSeries& series) {
   const auto &extension = abscissa_of(series), &force = ordinate_of(series), &time = series.of(Quantity::time);
   std::vector<std::size_t> starts{0};
   const double range = range_of(extension), peak = range_of(force);
   for (std::size_t i = 1; i < extension.size(); ++i) {
     const std::size_t start = starts.back();
-    const bool clock_back = !time.empty() && time[i] < time[i - 1] &&
-                            time[i] <= time[start] + 0.02 * (time[i - 1] - time[start]);
+    const bool clock_back =
+        !time.empty() && time[i] < time[i - 1] && time[i] <= time[start] + 0.02 * (time[i - 1] - time[start]);
     const bool far_before = std::abs(extension[i - 1] - extension[start]) > kAway * range;
     const bool back_now = std::abs(extension[i] - extension[start]) < kBack * range;
     if (clock_back || (far_before && back_now && range > 0.0)) starts.push_back(i);
@@ -88,7 +93,7 @@ std::vector<std::size_t> restarts_of(const ColumnSeries& series) {
 /// How far a record has come: what decides whether another one goes on.
 struct Extent {
   double first = 0.0, last = 0.0, least = 0.0, most = 0.0, step = 0.0;  ///< of the extension
-  std::optional<double> time;                                          ///< its last
+  std::optional<double> time;                                           ///< its last
 
   void begin(double value) { *this = {value, value, value, value, 0.0, std::nullopt}; }
   void go_to(double value) {
@@ -126,8 +131,9 @@ bool goes_on(const ColumnSeries& first, const ColumnSeries& next) {
 
 /// Words of a title that speak of extreme values.
 bool is_of_extremes(const std::string& title) {
-  constexpr std::array<std::string_view, 14> kWords = {"max",   "min",     "maximum", "minimum", "peak",  "valley",  "extreme",
-                                                       "extremes", "extremwerte", "spitzenwerte", "extrema", "peaks", "pic", "picco"};
+  constexpr std::array<std::string_view, 14> kWords = {"max",     "min",     "maximum",  "minimum",     "peak",
+                                                       "valley",  "extreme", "extremes", "extremwerte", "spitzenwerte",
+                                                       "extrema", "peaks",   "pic",      "picco"};
   const std::string words = plain_words(title);
   return std::any_of(kWords.begin(), kWords.end(), [&](std::string_view word) { return holds_word(words, word); });
 }
@@ -136,7 +142,8 @@ bool is_of_extremes(const std::string& title) {
 bool names_a_specimen(const std::string& title) {
   const std::string words = plain_words(title);
   const auto known = specimen_words();
-  return std::any_of(known.begin(), known.end(), [&](std::string_view word) { return word.size() > 3 && holds_word(words, word); });
+  return std::any_of(known.begin(), known.end(),
+                     [&](std::string_view word) { return word.size() > 3 && holds_word(words, word); });
 }
 
 class PartFinder {
@@ -177,11 +184,11 @@ class PartFinder {
   static std::vector<std::size_t> filled_rows(const TableBlock& block, const ColumnGroup& group, bool is_alone) {
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < block.rows(); ++row) {
-      const bool filled = is_alone || std::any_of(group.columns.begin(), group.columns.end(), [&](std::size_t column) {
-                            const auto quantity = block.columns[column].quantity;
-                            return (quantity == Quantity::extension || quantity == Quantity::force) &&
-                                   !block.cell(row, column).empty();
-                          });
+      const bool filled =
+          is_alone || std::any_of(group.columns.begin(), group.columns.end(), [&](std::size_t column) {
+            const auto quantity = block.columns[column].quantity;
+            return (quantity == Quantity::extension || quantity == Quantity::force) && !block.cell(row, column).empty();
+          });
       if (filled) rows.push_back(row);
     }
     return rows;
@@ -190,9 +197,10 @@ class PartFinder {
   void read_block(std::size_t index) {
     const TableBlock& block = tables_.blocks[index];
     if (block.ignored_rows > 0)
-      found_.notes.push_back(fmt::format("{}: {} rows of numbers after the record that begins in line {} stand below "
-                                         "other headings and are left out",
-                                         file_, block.ignored_rows, block.heading + 1));
+      found_.notes.push_back(
+          fmt::format("{}: {} rows of numbers after the record that begins in line {} stand below "
+                      "other headings and are left out",
+                      file_, block.ignored_rows, block.heading + 1));
     const std::vector<ColumnGroup> groups = column_groups(block, choice_);
     for (const ColumnGroup& group : groups) {
       const auto rows = filled_rows(block, group, groups.size() == 1);
@@ -205,7 +213,8 @@ class PartFinder {
     }
   }
 
-  void read_rows(const TableBlock& block, const ColumnGroup& group, const std::vector<std::size_t>& rows, const std::string& name) {
+  void read_rows(const TableBlock& block, const ColumnGroup& group, const std::vector<std::size_t>& rows,
+                 const std::string& name) {
     if (rows.empty()) {
       return add(block, name,
                  tl::unexpected(ImportFault{file_, static_cast<int>(block.heading) + 1, "",
@@ -258,7 +267,8 @@ class PartFinder {
 
   void add(const TableBlock& block, const std::string& name, tl::expected<ColumnSeries, ImportFault> series,
            const std::string& title = {}, bool is_new = false) {
-    Found part{.part = {.name = name, .heading = block.heading, .series = {}, .fault = {}}, .title = title, .headings = {}};
+    Found part{
+        .part = {.name = name, .heading = block.heading, .series = {}, .fault = {}}, .title = title, .headings = {}};
     for (const ColumnName& column : block.columns) part.headings += plain_words(column.heading) + "|";
     if (!series) {
       part.part.fault = series.error();
@@ -280,7 +290,9 @@ class PartFinder {
   }
 
   /// `Probe 2`, not a line of settings that speaks of a specimen.
-  static bool is_specimen_title(const std::string& title) { return title.size() < 40 && title.find(':') == std::string::npos; }
+  static bool is_specimen_title(const std::string& title) {
+    return title.size() < 40 && title.find(':') == std::string::npos;
+  }
 
   void leave_out(const char* what, auto is_unwanted) {
     for (const auto& each : all_) {
@@ -297,9 +309,8 @@ class PartFinder {
       return has_clock(each) && !is_of_extremes(each.title) && each.rows() >= kFewestCurveRows;
     });
     if (!timed || all_.size() < 2) return;
-    leave_out("extreme values", [&](const Found& each) {
-      return !each.part.fault && (!has_clock(each) || is_of_extremes(each.title));
-    });
+    leave_out("extreme values",
+              [&](const Found& each) { return !each.part.fault && (!has_clock(each) || is_of_extremes(each.title)); });
     leave_out("extreme values", [&](const Found& each) { return each.part.fault && is_of_extremes(each.title); });
   }
 
@@ -323,8 +334,9 @@ class PartFinder {
       const auto at = static_cast<std::size_t>(back - time.begin());
       each.part.fault = ImportFault{
           file_, each.part.series.line[at], each.part.series.column(Quantity::time)->heading,
-          fmt::format("time goes back from {} to {} s, expected one test in the order of time, or time_column in the sheet",
-                      time[at - 1], time[at])};
+          fmt::format(
+              "time goes back from {} to {} s, expected one test in the order of time, or time_column in the sheet",
+              time[at - 1], time[at])};
     }
   }
 
@@ -332,9 +344,10 @@ class PartFinder {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       Found& each = all_[i];
       if (each.joined > 0)
-        each.part.series.decisions.push_back(
-            fmt::format("{} tables with the same heading are one record: the clock or the extension goes on", each.joined + 1));
-      if (each.part.name.empty() && is_specimen_title(each.title) && names_a_specimen(each.title)) each.part.name = each.title;
+        each.part.series.decisions.push_back(fmt::format(
+            "{} tables with the same heading are one record: the clock or the extension goes on", each.joined + 1));
+      if (each.part.name.empty() && is_specimen_title(each.title) && names_a_specimen(each.title))
+        each.part.name = each.title;
       if (each.part.name.empty()) each.part.name = std::to_string(i + 1);
       found_.parts.push_back(std::move(each.part));
     }

@@ -45,6 +45,10 @@ class SeriesReader {
       take(quantity);
       if (fault_) return tl::unexpected(*fault_);
     }
+    for (const std::size_t column : columns_) {
+      const ColumnName& name = block_.columns[column];
+      if (name.quantity == Quantity::strain && choice_.strain.empty()) series_.strains.push_back(name.heading);
+    }
     take_time();
     if (fault_) return tl::unexpected(*fault_);
     return std::move(series_);
@@ -66,7 +70,8 @@ class SeriesReader {
   bool matters(std::size_t column) const {
     const ColumnName& name = block_.columns[column];
     if (name.quantity && *name.quantity != Quantity::strain && *name.quantity != Quantity::stress) return true;
-    for (const Quantity quantity : {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
+    for (const Quantity quantity :
+         {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
       if (match(name.heading, name.name, choice_.of(quantity)) > 0) return true;
     }
     return false;
@@ -177,8 +182,9 @@ class SeriesReader {
       others.push_back(fmt::format("`{}` ({})", other.name->heading,
                                    taken.match > 0 ? "not named by the sheet" : reason_for(taken, other)));
       if (taken.match == 0 && other.is_dead && !taken.is_dead && other.name->role == ColumnRole::measured)
-        series_.warnings.push_back(fmt::format("{}: column `{}` does not move and is left out, `{}` is taken for the {}",
-                                               file_, other.name->heading, taken.name->heading, to_string(quantity)));
+        series_.warnings.push_back(
+            fmt::format("{}: column `{}` does not move and is left out, `{}` is taken for the {}", file_,
+                        other.name->heading, taken.name->heading, to_string(quantity)));
     }
     for (const std::size_t i : columns_) {
       const ColumnName& name = block_.columns[i];
@@ -232,10 +238,11 @@ class SeriesReader {
     }
     std::vector<std::string> others;
     for (const Candidate& each : all) others.push_back(each.name->heading);
-    reject(block_.heading + 1, std::string(to_string(quantity)),
-           fmt::format("no measured column of {}, but `{}`, a set point or across the specimen; expected {}_column in the "
-                       "sheet where one of them is meant",
-                       to_string(quantity), fmt::join(others, "`, `"), to_string(quantity)));
+    reject(
+        block_.heading + 1, std::string(to_string(quantity)),
+        fmt::format("no measured column of {}, but `{}`, a set point or across the specimen; expected {}_column in the "
+                    "sheet where one of them is meant",
+                    to_string(quantity), fmt::join(others, "`, `"), to_string(quantity)));
   }
 
   /// The unit of the heading, else that of the sheet, else none, which import_one() decides on.
@@ -286,8 +293,9 @@ class SeriesReader {
                     fmt::format("the row has {} cells, expected {}; is the file cut off or edited?", cells,
                                 block_.columns.size()));
     if (!looks_like_number(text))
-      return reject(line, heading, fmt::format("`{}` is not a number, expected {}; is the file cut off or edited?", text,
-                                               to_string(quantity)));
+      return reject(
+          line, heading,
+          fmt::format("`{}` is not a number, expected {}; is the file cut off or edited?", text, to_string(quantity)));
     reject(line, heading,
            fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
                        mark_of(column) == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
@@ -352,7 +360,8 @@ class SeriesReader {
     }
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
       const auto order = [](const Candidate& each) {
-        return std::tuple(each.goes_back, each.is_dead, each.name->rank, !each.has_unit && !each.is_clock_time, each.column);
+        return std::tuple(each.goes_back, each.is_dead, each.name->rank, !each.has_unit && !each.is_clock_time,
+                          each.column);
       };
       return order(a) < order(b);
     });
@@ -404,8 +413,7 @@ std::optional<std::vector<double>> numbers_of(const TableBlock& block, std::size
                                               const std::vector<std::size_t>& rows, char delimiter) {
   std::vector<std::string_view> cells;
   for (const std::size_t row : rows) cells.push_back(block.cell(row, column));
-  const DecimalMark mark =
-      column_mark(cells).mark.value_or(delimiter == ',' ? DecimalMark::point : DecimalMark::comma);
+  const DecimalMark mark = column_mark(cells).mark.value_or(delimiter == ',' ? DecimalMark::point : DecimalMark::comma);
   std::vector<double> values;
   for (const std::string_view cell : cells) {
     auto value = instrument_number(cell, mark);

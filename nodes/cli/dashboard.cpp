@@ -50,7 +50,8 @@ int show_dashboard(const Options& options) {
   const RunAccess run = open_run(options.run);
   RunDesk desk(run);
   dashboard::Dashboard page(settings_of(run, options), desk);
-  dashboard::ServerSettings server{.host = options.host, .port = options.port, .token = options.token, .further_hosts = options.allowed_hosts};
+  dashboard::ServerSettings server{
+      .host = options.host, .port = options.port, .token = options.token, .further_hosts = options.allowed_hosts};
   if (server.token.empty() && !is_loopback(options.host)) server.token = dashboard::random_token();
   const runtime::Interrupts interrupts;
   const auto ready = [&](int port) {

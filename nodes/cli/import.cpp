@@ -107,8 +107,8 @@ nlohmann::ordered_json to_json(const measurement::ListedPart& part) {
                        {"least", column.least},
                        {"most", column.most}});
   }
-  return {{"part", part.name},       {"line", part.line},           {"rows", part.rows},
-          {"columns", columns},      {"decisions", part.decisions}, {"fault", part.fault}};
+  return {{"part", part.name},  {"line", part.line},           {"rows", part.rows},
+          {"columns", columns}, {"decisions", part.decisions}, {"fault", part.fault}};
 }
 
 /// What the files hold; 1 where one of them holds nothing.
@@ -124,7 +124,11 @@ int list_exports(const Options& options) {
     }
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
     for (const auto& part : held->parts) parts.push_back(to_json(part));
-    files.push_back({{"file", file}, {"maker", held->maker}, {"encoding", held->encoding}, {"parts", parts}, {"notes", held->notes}});
+    files.push_back({{"file", file},
+                     {"maker", held->maker},
+                     {"encoding", held->encoding},
+                     {"parts", parts},
+                     {"notes", held->notes}});
     if (options.json) continue;
     fmt::print("{}: {}, {}, {}\n", file, held->maker, held->encoding, held->delimiter);
     for (const auto& part : held->parts) print_part(part);

@@ -228,9 +228,8 @@ std::string_view in_words(measurement::GroupState state) {
 
 void print_group(const ReplicateGroup& group) {
   const bool is_modulus = group.test == tester::TestKind::modulus;
-  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {}{}\n", group.design.name(),
-             tester::to_string(group.test), unusual_conditions(group.conditions), in_words(group.state),
-             group.tested.size(), group.valid.size(),
+  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {}{}\n", group.design.name(), tester::to_string(group.test),
+             unusual_conditions(group.conditions), in_words(group.state), group.tested.size(), group.valid.size(),
              group.wanted > 0 ? fmt::format(", {} more to be tested", group.wanted) : "", is_modulus ? "E" : "T",
              mean_and_scatter(group.mean_pa, group.scatter, is_modulus),
              group.representative.empty() ? "" : fmt::format("  most typical: {}", group.representative));

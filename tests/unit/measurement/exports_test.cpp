@@ -82,7 +82,8 @@ TEST(Exports, TheClockIsKnownInGerman) { expect_all_usual(import_case("07-clock-
 TEST(Exports, SpecimensBelowEachOtherAreParts) {
   const Import import = import_case("08-specimens-below-each-other");
   EXPECT_TRUE(import.specimens.empty());
-  EXPECT_THAT(all_of(import), HasSubstr("holds 3 tests, expected the name or number of one in the column `part`: 1, 2, 3"));
+  EXPECT_THAT(all_of(import),
+              HasSubstr("holds 3 tests, expected the name or number of one in the column `part`: 1, 2, 3"));
 }
 
 TEST(Exports, NoiseOfTheExtensionDoesNotRaiseTheModulus) {
@@ -140,7 +141,8 @@ std::vector<Point> usual_test(double scale = 1.0) {
   std::vector<Point> points;
   for (int i = 0; i <= 120; ++i) {
     const double extension = 1.296 * i / 120, peak = 0.54, area = 52 * 3.2;
-    const double stress = extension <= peak ? 1200 * extension / 54 : std::max(0.0, 12.0 * (1 - (extension - peak) / 0.54));
+    const double stress =
+        extension <= peak ? 1200 * extension / 54 : std::max(0.0, 12.0 * (1 - (extension - peak) / 0.54));
     points.push_back({extension / 0.02, extension, scale * stress * area});
   }
   return points;
@@ -178,8 +180,8 @@ class Layouts : public testing::Test {
 };
 
 /// Rows `format` of time, extension, force, under a heading.
-std::string table(const std::string& heading, const std::string& format = "{:.3f},{:.5f},{:.4f}\n", double extension = 1.0,
-                  double force = 1.0) {
+std::string table(const std::string& heading, const std::string& format = "{:.3f},{:.5f},{:.4f}\n",
+                  double extension = 1.0, double force = 1.0) {
   std::string text = heading;
   for (const Point& each : usual_test())
     text += fmt::format(fmt::runtime(format), each.time_s, extension * each.extension_mm, force * each.force_n);
@@ -193,52 +195,57 @@ std::string with_commas(std::string text) {
 
 TEST_F(Layouts, OfMakersAreReadInTheirLanguages) {
   const std::string semicolons = "{:.3f};{:.5f};{:.4f}\n", tabs = "{:.3f}\t{:.5f}\t{:.4f}\n";
-  for (const std::string& heading :
+  for (const char* heading :
        {"Time (s),Tensile extension (mm),Load (N)\n", "Time,Crosshead,Load\nsec,mm,N\n",
         "Temps (s),D\xC3\xA9placement (mm),Force (N)\n", "Tiempo (s),Desplazamiento (mm),Fuerza (N)\n",
         "Tempo (s),Spostamento (mm),Forza (N)\n", "Tempo [sec],Corsa [mm],Carico [newton]\n",
-        "時間(s),変位(mm),荷重(N)\n", "時間【s】,ストローク【mm】,試験力【N】\n",
-        "时间（秒）,位移（毫米）,力（牛）\n", "时间/s,变形/mm,负荷/N\n", "t [s],s [mm],F [N]\n", "t/s,x/mm,F/N\n",
+        "時間(s),変位(mm),荷重(N)\n", "時間【s】,ストローク【mm】,試験力【N】\n", "时间（秒）,位移（毫米）,力（牛）\n",
+        "时间/s,变形/mm,负荷/N\n", "t [s],s [mm],F [N]\n", "t/s,x/mm,F/N\n",
         "Elapsed Time in s,Position in mm,Load Cell in N\n", "Time (s) CH1,Position (mm) CH1,Force (N) CH1\n",
         "\"Time  sec\",\"Extension  mm\",\"Load  N\"\n"})
     expect_read(table(heading));
-  for (const std::string& heading :
+  for (const char* heading :
        {"Prüfzeit;Standardweg;Standardkraft\ns;mm;N\n", "Laufzeit;Ch 1 Weg;Ch 1 Kraft\ns;mm;N\n",
         "Versuchszeit [s];Traversenweg [mm];Prüfkraft [N]\n", "Zeit in Sekunden;Weg in Millimeter;Kraft in Newton\n",
         "Dauer [s];Verlängerung [mm];Zugkraft [N]\n", "s;mm;N\nZeit;Weg;Kraft\n",
         "Temps écoulé (secondes);Course (millimètres);Effort (newtons)\n"})
     expect_read(with_commas(table(heading, semicolons)));
   expect_read(table("Running Time\tAxial Displacement\tAxial Force\nSec\tmm\tkN\n", tabs, 1.0, 1e-3));
-  expect_read(table("Time\tExtension\tLoad\n(s)\t(in)\t(lbf)\n", "{:.3f}\t{:.7f}\t{:.6f}\n", 1 / 25.4, 1 / 4.4482216152605));
+  expect_read(
+      table("Time\tExtension\tLoad\n(s)\t(in)\t(lbf)\n", "{:.3f}\t{:.7f}\t{:.6f}\n", 1 / 25.4, 1 / 4.4482216152605));
   expect_read(table("Time (s)|Displacement (m)|Force (kN)\n", "{:.3f}|{:.8f}|{:.7f}\n", 1e-3, 1e-3));
 }
 
-// As public scripts describe them: CellScale, MTI, Mecmesin, Trapezium X, TestSuite's timed acquisition, a fatigue bench.
+// As public scripts describe them: CellScale, MTI, Mecmesin, Trapezium X, TestSuite's timed acquisition, a fatigue
+// bench.
 TEST_F(Layouts, OfFurtherMakersAreRead) {
   expect_read(table("SetName\tCycle\tTime_S\tSize_mm\tDisplacement_mm\tForce_N\n",
                     "pull\t1-Stretch\t{0:.3f}\t54\t{1:.5f}\t{2:.4f}\n"));
-  expect_read(table("6/11/2018 11:47:32 AM\nOperator: N. N.\n\nTime,Load,Disp\nsec,N,mm\n", "{0:.3f},{2:.4f},{1:.5f}\n"));
+  expect_read(
+      table("6/11/2018 11:47:32 AM\nOperator: N. N.\n\nTime,Load,Disp\nsec,N,mm\n", "{0:.3f},{2:.4f},{1:.5f}\n"));
   expect_read(table("Reading,Time (s),Load (N),Displacement (mm)\n", "1,{0:.3f},{2:.4f},{1:.5f}\n"));
   expect_read(table("\"1 _ 1\",\"\",\"\"\n\"Time\",\"Force\",\"Stroke\"\n\"sec\",\"N\",\"mm\"\n",
                     "\"{0:.3f}\",\"{2:.4f}\",\"{1:.5f}\"\n"));
-  expect_read(table("Test Run Name,t7\n\nDAQ- Crosshead\n\nCrosshead ,Load ,Time \nmm,kN,sec\n", "{1:.5f},{2:.7f},{0:.3f}\n",
-                    1.0, 1e-3));
+  expect_read(table("Test Run Name,t7\n\nDAQ- Crosshead\n\nCrosshead ,Load ,Time \nmm,kN,sec\n",
+                    "{1:.5f},{2:.7f},{0:.3f}\n", 1.0, 1e-3));
   expect_read(table("Machine_N_cycles,Machine_Time (sec),Machine_Load (kN),Machine_Displacement (mm)\n",
                     "0,{0:.3f},{2:.7f},{1:.5f}\n", 1.0, 1e-3));
   expect_read(table("Time in s\tChange in length in mm\tStandard force in N\n", "{0:.3f}\t{1:.5f}\t{2:.4f}\n"));
-  expect_read(table("sep=;\nElapsed Time [s];Grip Separation [mm];Axial Load [N];Temperature [C]\n", "{0:.3f};{1:.5f};{2:.4f};21\n"));
+  expect_read(table("sep=;\nElapsed Time [s];Grip Separation [mm];Axial Load [N];Temperature [C]\n",
+                    "{0:.3f};{1:.5f};{2:.4f};21\n"));
 }
 
 TEST_F(Layouts, WithSetPointsLateralAndRawColumnsGiveTheMeasurement) {
   const std::string twice = "{0:.3f},{3:.5f},{1:.5f},{4:.4f},{2:.4f}\n";
-  for (const std::string& heading :
+  for (const char* heading :
        {"Zeit [s],Weg Sollwert [mm],Weg [mm],Sollkraft [N],Kraft [N]\n",
         "Temps (s),Consigne de d\xC3\xA9placement (mm),D\xC3\xA9placement (mm),Consigne effort (N),Effort (N)\n",
         "Time (s),Target Position (mm),Position (mm),Force Setpoint (N),Force (N)\n",
         "Time (s),Position Demand (mm),Position (mm),Load cmd (N),Load (N)\n",
         "Time (s),Lateral Displacement (mm),Axial Displacement (mm),Load ADC (counts),Load (N)\n",
         "Zeit [s],Breiten\xC3\xA4nderung [mm],L\xC3\xA4ngen\xC3\xA4nderung [mm],Kraft roh,Kraft [N]\n",
-        "時間(s),目標変位(mm),変位(mm),設定荷重(N),荷重(N)\n", "Time (s),Displacement,Displacement (mm),Force,Force (N)\n"}) {
+        "時間(s),目標変位(mm),変位(mm),設定荷重(N),荷重(N)\n",
+        "Time (s),Displacement,Displacement (mm),Force,Force (N)\n"}) {
     std::string text = heading;
     for (const Point& each : usual_test())
       text += fmt::format(fmt::runtime(twice), each.time_s, each.extension_mm, each.force_n, 1.5 * each.extension_mm,
@@ -271,17 +278,19 @@ TEST_F(Layouts, OfSeveralSpecimensAreOfferedAsPartsByName) {
   };
   const std::string heading = "Time [s];Travel [mm];Force [N]\n";
   const std::string below = lines("Specimen A\n", 1.1, heading) + lines("Specimen B\n", 1.0, heading);
-  expect_refused(below, "holds 2 tests, expected the name or number of one in the column `part`: Specimen A, Specimen B");
+  expect_refused(below,
+                 "holds 2 tests, expected the name or number of one in the column `part`: Specimen A, Specimen B");
   expect_read(below, ",part", ",Specimen B");
   expect_read(below, ",part", ",2");
   const std::string once = lines("", 1.1, heading) + lines("Probe 2\n", 1.0, "");
   expect_refused(once, "holds 2 tests");
   expect_read(once, ",part", ",2");
   expect_refused(lines("", 1.1, heading) + lines("", 1.0, ""), "holds 2 tests");
-  std::string beside = "Time (s) Run #1,Position (mm) Run #1,Force (N) Run #1,Time (s) Run #2,Position (mm) Run #2,Force (N) Run #2\n";
+  std::string beside =
+      "Time (s) Run #1,Position (mm) Run #1,Force (N) Run #1,Time (s) Run #2,Position (mm) Run #2,Force (N) Run #2\n";
   for (const Point& each : usual_test())
-    beside += fmt::format("{0:.3f},{1:.5f},{3:.4f},{0:.3f},{1:.5f},{2:.4f}\n", each.time_s, each.extension_mm, each.force_n,
-                          1.1 * each.force_n);
+    beside += fmt::format("{0:.3f},{1:.5f},{3:.4f},{0:.3f},{1:.5f},{2:.4f}\n", each.time_s, each.extension_mm,
+                          each.force_n, 1.1 * each.force_n);
   expect_refused(beside, "holds 2 tests");
   expect_read(beside, ",part", ",run #2");
   expect_read(beside, ",part", ",2");
@@ -295,11 +304,13 @@ TEST_F(Layouts, OfSeveralSpecimensAreOfferedAsPartsByName) {
 }
 
 TEST_F(Layouts, OfTablesOfResultsBeforeAndBehindLeaveTheCurve) {
-  const std::string results = "Results\nSpecimen,Load (N),Extension (mm),Modulus (MPa)\n1,1996.8,0.54,1200\nMean,1996.8,0.54,1200\n\n";
+  const std::string results =
+      "Results\nSpecimen,Load (N),Extension (mm),Modulus (MPa)\n1,1996.8,0.54,1200\nMean,1996.8,0.54,1200\n\n";
   const std::string curve = table("Time (s),Extension (mm),Load (N)\n");
   expect_read(results + curve);
   expect_read(curve + "\n" + results);
-  expect_read("Speed,1.2 mm/min\nPreload,1,N\n\n" + curve + "\nMaximum Load (N),Extension at Break (mm)\n1996.8,1.08\n");
+  expect_read("Speed,1.2 mm/min\nPreload,1,N\n\n" + curve +
+              "\nMaximum Load (N),Extension at Break (mm)\n1996.8,1.08\n");
 }
 
 TEST_F(Layouts, OfNumbersInEveryLocaleAreRead) {
@@ -309,8 +320,9 @@ TEST_F(Layouts, OfNumbersInEveryLocaleAreRead) {
   for (const Point& each : usual_test()) {
     const long long force = std::llround(1e3 * each.force_n);
     const std::string text = force < 1000 ? fmt::format("{}", force)
-                             : force < 1000000 ? fmt::format("{},{:03}", force / 1000, force % 1000)
-                                               : fmt::format("{},{:03},{:03}", force / 1000000, force / 1000 % 1000, force % 1000);
+                             : force < 1000000
+                                 ? fmt::format("{},{:03}", force / 1000, force % 1000)
+                                 : fmt::format("{},{:03},{:03}", force / 1000000, force / 1000 % 1000, force % 1000);
     grouped += fmt::format("{:.3f}\t{:.5f}\t{}\n", each.time_s, each.extension_mm, text);
   }
   expect_read(grouped);
@@ -331,7 +343,8 @@ TEST_F(Layouts, OfHoldsAndTaresGiveThePull) {
 }
 
 TEST_F(Layouts, ThatCannotBeTrustedAreRefusedByName) {
-  expect_refused(table("Time (s),Extension (mm),Load (N)\n", "{0:.3f},1.00000,{2:.4f}\n"), "the extension does not move");
+  expect_refused(table("Time (s),Extension (mm),Load (N)\n", "{0:.3f},1.00000,{2:.4f}\n"),
+                 "the extension does not move");
   expect_refused(table("Time (s),Extension (mm),Load (N)\n", "{0:.3f},{1:.5f},0.5\n"), "the force does not move");
   expect_refused(table("Time (s),Position (mm),Load (N)\n", "{0:.3f},{1:.5f},{2:.4f}\n", -1.0), "counts downwards");
 }
@@ -357,8 +370,9 @@ TEST_F(Layouts, TheSetKeepsWhereItsNumbersCameFrom) {
   write_import(folder_ / "set", "sheet.csv", first);
   std::ifstream file(folder_ / "set" / kProvenanceName);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_THAT(text, AllOf(HasSubstr("specimen,test,file,part,maker"), HasSubstr("s1,toughness,a.csv,1,table,UTF-8,comma"),
-                          HasSubstr("Extension (mm),mm,Stroke (mm)")));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("specimen,test,file,part,maker"), HasSubstr("s1,toughness,a.csv,1,table,UTF-8,comma"),
+                    HasSubstr("Extension (mm),mm,Stroke (mm)")));
 }
 
 }  // namespace
