@@ -145,8 +145,11 @@ FittedLine fit(const FirstLoading& path, SlopeWindow window) {
   const long double xx = std::max(after.xx - before.xx - x * x / count, 0.0L);
   const long double yy = std::max(after.yy - before.yy - y * y / count, 0.0L);
   const long double xy = after.xy - before.xy - x * y / count;
+  constexpr long double kRounding = 1e-15L;  // of the products of the whole path
+  if (std::abs(xy) <= kRounding * std::sqrt(path.sums.back().xx * path.sums.back().yy))
+    return {0.0, static_cast<double>(count > 2.0L ? std::sqrt(yy / (count - 2.0L) / xx) : 0.0L), 0.0};
   long double slope = xy / xx;
-  if (path.strain_noise > 0.0 && xy != 0.0L) {
+  if (path.strain_noise > 0.0) {
     const long double ratio = std::pow(path.stress_noise_pa / path.strain_noise, 2.0);
     const long double half = yy - ratio * xx;
     slope = (half + std::sqrt(half * half + 4.0L * ratio * xy * xy)) / (2.0L * xy);

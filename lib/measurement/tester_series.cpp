@@ -38,6 +38,11 @@ class SeriesReader {
 
   tl::expected<ColumnSeries, ImportFault> read() {
     for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
+    for (const std::size_t row : rows_) {
+      if (delimiter_ != ',' || block_.cells_in(row) <= block_.columns.size() || !is_torn(row)) continue;
+      refuse_torn(row);
+      return tl::unexpected(*fault_);
+    }
     find_marks();
     const Quantity abscissa = choice_.strain.empty() ? Quantity::extension : Quantity::strain;
     const Quantity ordinate = choice_.stress.empty() ? Quantity::force : Quantity::stress;
@@ -287,7 +292,6 @@ class SeriesReader {
     const std::string& heading = block_.columns[column].heading;
     const std::size_t line = block_.lines[row] + 1, cells = block_.cells_in(row);
     const std::string_view text = block_.cell(row, column);
-    if (delimiter_ == ',' && is_torn(row)) return refuse_torn(row);
     if (column >= cells)
       return reject(line, heading,
                     fmt::format("the row has {} cells, expected {}; is the file cut off or edited?", cells,
