@@ -138,7 +138,8 @@ void add_replay(CLI::App& app, Action& action) {
   command.add_option("--node", options->node, "Node to replay")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(game::kNodes.begin(), game::kNodes.end())));
-  command.add_option("--scenario", options->scenario, "Scenario of the run; default: scenario.toml in the folder of the run");
+  command.add_option("--scenario", options->scenario,
+                     "Scenario of the run; default: scenario.toml in the folder of the run");
   command.add_flag("--recompute", options->recompute, "Repeat the long computations and compare their results too");
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }

@@ -516,7 +516,7 @@ TEST_F(ForgetfulSlurm, ABatchThatIsGivenOutAgainHasItsFileAgain) {
   executor_->start({"q", "simulate", wire::write(test_request)});
   const Spool spool(folder_ / "slurm");
   ASSERT_TRUE(becomes_true([&] { return !spool.batches().empty(); }));
-  const std::filesystem::path file = spool.test_request(spool.batches().front());
+  const std::filesystem::path file = spool.batch_file(spool.batches().front());
   const std::string bytes = read_file(file);
   std::filesystem::remove(file);
   ASSERT_TRUE(becomes_true([&] { return std::filesystem::exists(file); })) << "its tasks would find nothing to do";

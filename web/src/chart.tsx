@@ -253,7 +253,9 @@ export function ChartBox({ name, label, empty, option, height, table, onReady, t
         {tools}
         {scale && (
           <span class="scale">
-            <span>{figure(scale.low)}</span>
+            <span>
+              {scale.name} {figure(scale.low)}
+            </span>
             <span class="ramp" style={{ background: `linear-gradient(to right, ${RAMP.join(", ")})` }} />
             <span>
               {figure(scale.high)} {scale.unit}

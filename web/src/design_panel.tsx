@@ -7,8 +7,8 @@ import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
-import { duration, gpa, MPA, mpa, percent, sentence } from "./numbers";
-import { MaterialKey, Name, Problem, saveUnit, Unit, UnitButton } from "./parts";
+import { duration, gpa, MPA, mpa, percent } from "./numbers";
+import { MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
 
 /** A design that was chosen, and where. `model`: the round, or the family, whose model simulates it; `map`: of
@@ -296,10 +296,11 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
       </div>
       <Problem text={problem} />
       {design?.proposals.map((p) => (
-        <p key={p.round} class="reason">
-          Proposed in round {p.round}. {sentence(p.reason)}. Predicted: E {gpa(p.modulus_pa)} GPa, T {mpa(p.toughness_pa)}{" "}
-          MPa.
-        </p>
+        <Reason
+          key={p.round}
+          before={`Proposed in round ${p.round}, predicted E ${gpa(p.modulus_pa)} GPa, T ${mpa(p.toughness_pa)} MPa.`}
+          text={p.reason}
+        />
       ))}
       {design?.violation && <p class="reason">Outside the design space: {design.violation}</p>}
       <CurveChart design={design} film={state.film} frame={frame} />
@@ -310,7 +311,7 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
           {state.simulation?.source === "here" &&
             ` Simulated just now with the model of ${
               typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model
-            }; films of proposals and of a family's designs come from the game.`}
+            }, since the game kept no film of it.`}
         </p>
       )}
     </>

@@ -16,6 +16,17 @@ const VERDICTS: Record<string, string> = {
   unexplained: "Something is missing that no known effect explains",
 };
 
+/** Too few measurements for any verdict: nothing was considered. */
+const isUndecided = (d: Diagnosis) => d.verdict === "ambiguous" && d.candidates.length === 0;
+
+const headline = (d: Diagnosis) =>
+  isUndecided(d) ? "There are too few measurements for a diagnosis yet" : (VERDICTS[d.verdict] ?? words(d.verdict));
+
+function noNextTest(d: Diagnosis): string {
+  if (isUndecided(d)) return "None is proposed before there are more measurements.";
+  return d.verdict === "base_sufficient" ? "No further test is needed." : "No further test is proposed.";
+}
+
 /** What a status means. */
 const STATUS: Record<string, { text: string; hint: string }> = {
   in_set: { text: "explains the data", hint: "With this effect the model agrees with the measurements." },
@@ -97,7 +108,7 @@ function saveDiagnosis(diagnosis: Diagnosis): void {
 function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
   return (
     <>
-      <h2>{VERDICTS[diagnosis.verdict] ?? words(diagnosis.verdict)}</h2>
+      <h2>{headline(diagnosis)}</h2>
       <p>{diagnosis.summary}</p>
       {diagnosis.against && <p class="doubt">{diagnosis.against}</p>}
       {diagnosis.effects.map((e) => (
@@ -133,7 +144,7 @@ function NextTests({ diagnosis }: { diagnosis: Diagnosis }) {
         caption="Next tests, which would settle what is open"
         rows={diagnosis.next_experiments}
         rowKey={(e: Experiment) => JSON.stringify(e)}
-        empty="No further test is needed."
+        empty={noNextTest(diagnosis)}
         columns={[
           {
             ...TERMS.design,

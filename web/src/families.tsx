@@ -31,7 +31,7 @@ function Explanation({ families }: { families: Families }) {
     <>
       <p class="quiet">
         Diamonds: measured seeds. Small points: variants within 16 pixels, by the family's own model. Rings: variants
-        chosen for the laboratory, as predicted; a line leads to the measured value.
+        chosen for the laboratory, as predicted; a line leads to the measured value. Grey: other measured designs.
       </p>
       {over.map((f) => (
         <p key={f.name} class="notice bad" role="status">

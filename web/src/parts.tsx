@@ -3,7 +3,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { MATERIAL } from "./colour";
-import { figure } from "./numbers";
+import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
 
@@ -31,7 +31,7 @@ export function Unit({ design, size, label = true }: { design: string; size: num
   );
 }
 
-/** Which colour is which material, beside pictures of patterns. */
+/** The colours of the materials, for pictures of patterns. */
 export function MaterialKey() {
   return (
     <ul class="keys materials" aria-label="colours of the materials">
@@ -50,7 +50,8 @@ export function UnitButton({ design, values, choose }: { design: string; values:
     <button type="button" class="unit-button" onClick={choose}>
       <Unit design={design} size={70} />
       <span>
-        E {values[0]} · T {values[1]}
+        E {values[0]} GPa
+        <br />T {values[1]} MPa
       </span>
     </button>
   );
@@ -164,6 +165,21 @@ export function Table<Row>({
         </div>
       )}
     </div>
+  );
+}
+
+/** Why a design is proposed: sentences, the warning among them marked. */
+export function Reason({ text, before = "" }: { text: string; before?: string }) {
+  const [reason, warning] = text.split("; warning: ");
+  return (
+    <>
+      {(before || reason) && (
+        <p class="quiet">
+          {before} {reason && `${sentence(reason)}.`}
+        </p>
+      )}
+      {warning && <p class="doubt reason">Warning: {warning}.</p>}
+    </>
   );
 }
 

@@ -37,19 +37,19 @@ export const TERMS = {
     "Area between the predicted front and the measured one: how far simulation and laboratory are apart.",
   ),
   modulusError: term(
-    "prediction error of E",
+    "prediction error of\u00a0E",
     "Mean relative error of E on designs that were predicted before they were measured (out-of-sample).",
   ),
   toughnessError: term(
-    "prediction error of T",
+    "prediction error of\u00a0T",
     "Mean relative error of T on designs that were predicted before they were measured (out-of-sample).",
   ),
   toughnessRank: term(
-    "rank correlation of T",
+    "rank correlation of\u00a0T",
     "Whether predicted and measured T have the same order (Spearman): 1 is the same, 0 none. From three designs on.",
   ),
-  modulusFit: term("fit error of E", "Mean relative error of E after calibration, on the designs used for it."),
-  toughnessFit: term("fit error of T", "Mean relative error of T after calibration, on the designs used for it."),
+  modulusFit: term("fit error of\u00a0E", "Mean relative error of E after calibration, on the designs used for it."),
+  toughnessFit: term("fit error of\u00a0T", "Mean relative error of T after calibration, on the designs used for it."),
   equilibrium: term("equilibrium", "Whether two rounds running added nothing, and the comparison that decided it."),
 
   designState: term("state", "How far the design has got: pending, approved, printed, measured, or rejected."),

@@ -146,7 +146,8 @@ TEST(DropletPlan, InterfaceAreasBetweenUnlikePixelsAreHalfRigid) {
   const Slice slice = plan.slice(0);
   std::map<Area, DropletCount> by_area;
   for (int row = 0; row < slice.rows; ++row) {
-    for (int column = 0; column < slice.columns; ++column) ++by_area[plan.area(column, row)][slice.at(column, row)];
+    for (int column = 0; column < slice.columns; ++column)
+      ++by_area[plan.area(column, row)][static_cast<std::size_t>(slice.at(column, row))];
   }
   ASSERT_EQ(by_area.size(), 4U);
   for (const Area area : {Area::type_1, Area::type_2, Area::type_3})

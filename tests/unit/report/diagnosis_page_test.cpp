@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnosis/summary.hpp"
+
 namespace nacre::report {
 namespace {
 

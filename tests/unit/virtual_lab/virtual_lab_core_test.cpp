@@ -10,14 +10,14 @@
 #include "laboratory/draw.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
-namespace nacre::laboratory {
+namespace nacre::virtual_lab {
 namespace {
 
 using runtime::Message;
 using runtime::Outputs;
 using runtime::WorkDone;
 
-Truth truth() { return draw_truth(31, tester::Fidelity::tiny); }
+Truth truth() { return laboratory::draw_truth(31, tester::Fidelity::tiny); }
 
 wire::TestOrder order(const std::string& id, const char* design, tester::TestKind test = tester::TestKind::modulus) {
   wire::TestOrder order;
@@ -145,4 +145,4 @@ TEST(VirtualLabCore, AnUnreadableResultOfWorkGivesInvalidSpecimens) {
 }
 
 }  // namespace
-}  // namespace nacre::laboratory
+}  // namespace nacre::virtual_lab
