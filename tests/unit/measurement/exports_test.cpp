@@ -12,8 +12,10 @@
 #include <iterator>
 #include <vector>
 
+#include "measurement/consistency.hpp"
 #include "measurement/import.hpp"
 #include "measurement/provenance.hpp"
+#include "measurement/read_set.hpp"
 #include "measurement/tester_export.hpp"
 #include "measurement/write_import.hpp"
 
@@ -132,6 +134,23 @@ TEST(Exports, ThousandsMayBeGroupedByTypographicSigns) {
 }
 
 TEST(Exports, HeadingsOnEveryPageAreOneRecord) { expect_all_usual(import_case("29-headings-on-every-page"), 1); }
+
+TEST(Exports, StrainInPerCentIsDoubted) {
+  const MeasurementSet set = read_measurement_set(kExports / "27-strain-in-per-cent/set");
+  std::string all;
+  for (const std::string& warning : set.warnings) all += warning + "\n";
+  EXPECT_THAT(all, HasSubstr("is strain in per cent, not a ratio? Then it would be 2.4"));
+}
+
+TEST(Exports, AGroupWithoutAValidSpecimenHasNoMeanAndASingleOneNoScatter) {
+  const auto groups = review_replicates(read_measurement_set(kExports / "31-no-valid-specimen-is-a-zero/set").specimens);
+  ASSERT_EQ(groups.size(), 2U);
+  const auto& none = groups[0].valid.empty() ? groups[0] : groups[1];
+  const auto& single = groups[0].valid.empty() ? groups[1] : groups[0];
+  EXPECT_FALSE(none.mean_pa || none.scatter);
+  EXPECT_EQ(single.mean_pa, 5e4);
+  EXPECT_FALSE(single.scatter);
+}
 
 /// A specimen of E 1.2 GPa, 120 kJ/m3, pulled at 0.02 mm/s over 54 mm, as rows of numbers.
 struct Point {
