@@ -143,7 +143,8 @@ TEST(Exports, StrainInPerCentIsDoubted) {
 }
 
 TEST(Exports, AGroupWithoutAValidSpecimenHasNoMeanAndASingleOneNoScatter) {
-  const auto groups = review_replicates(read_measurement_set(kExports / "31-no-valid-specimen-is-a-zero/set").specimens);
+  const auto groups =
+      review_replicates(read_measurement_set(kExports / "31-no-valid-specimen-is-a-zero/set").specimens);
   ASSERT_EQ(groups.size(), 2U);
   const auto& none = groups[0].valid.empty() ? groups[0] : groups[1];
   const auto& single = groups[0].valid.empty() ? groups[1] : groups[0];
