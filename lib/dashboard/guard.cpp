@@ -45,9 +45,23 @@ bool is_address(const std::string& host) {
          host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
 }
 
+/// The name in a Host header: without port, and without the dot at the end of a whole name.
+std::string without_port(const std::string& host) {
+  const std::size_t colon = host.rfind(':');
+  const bool has_port = colon != std::string::npos && colon + 1 < host.size() &&
+                        host.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+  std::string name = has_port ? host.substr(0, colon) : host;
+  if (name.ends_with('.')) name.pop_back();
+  return name;
+}
+
 bool is_named(const AccessRules& rules, const std::string& host) {
   // Names have no case; browsers send lower case.
-  if (std::ranges::find(rules.hosts, lower_case(host), lower_case) != rules.hosts.end()) return true;
+  const std::string name = lower_case(without_port(host));
+  if (name == "localhost" || name == "127.0.0.1" || name == "[::1]") return true;
+  for (const std::string& known : rules.hosts) {
+    if (lower_case(known) == lower_case(host) || lower_case(known) == name) return true;
+  }
   return !rules.token.empty() && is_address(host);
 }
 
@@ -127,7 +141,10 @@ std::string random_token() {
 std::optional<Response> refused(const AccessRules& rules, const Request& request) {
   if (request.path.size() > kLongestPath) return error_response(414, "the path is too long");
   if (!is_named(rules, request.header("host")))
-    return error_response(421, "this server has no such name: open the address that nacre dashboard printed");
+    return error_response(
+        421,
+        "this server has no such name: open the address that nacre dashboard printed, or start it with "
+        "--allow-host and the name that the browser uses");
   if (!rules.token.empty()) {
     if (auto answer = welcome(rules, request)) return answer;
     if (!knows_token(rules, request))

@@ -31,6 +31,8 @@ Json specimens_json(const game::MeasurementBook& book) {
   return specimens;
 }
 
+Json or_null(std::optional<double> value) { return value ? Json(*value) : Json(); }
+
 Json group_json(const measurement::ReplicateGroup& group) {
   Json proposed = Json::array();
   for (const auto& outlier : group.proposed) {
@@ -49,10 +51,10 @@ Json group_json(const measurement::ReplicateGroup& group) {
           {"valid", group.valid},
           {"proposed_outliers", proposed},
           {"wanted", group.wanted},
-          {"mean_pa", group.mean_pa},
-          {"scatter", group.scatter},
-          {"mean_without_pa", group.mean_without_pa},
-          {"scatter_without", group.scatter_without},
+          {"mean_pa", or_null(group.mean_pa)},
+          {"scatter", or_null(group.scatter)},
+          {"mean_without_pa", or_null(group.mean_without_pa)},
+          {"scatter_without", or_null(group.scatter_without)},
           {"representative", group.representative}};
 }
 

@@ -81,8 +81,10 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
                                                                        : -1;
   if (port <= 0)
     throw InputError::format("{}:{}: {}", settings.host, settings.port, why_not_listening(settings.host, errno));
-  const AccessRules rules{
+  AccessRules rules{
       .hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
+
+  rules.hosts.insert(rules.hosts.end(), settings.further_hosts.begin(), settings.further_hosts.end());
 
   // Before the body is read.
   server.set_pre_routing_handler([&](const httplib::Request& from, httplib::Response& to) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "dashboard/dashboard.hpp"
 #include "dashboard/guard.hpp"
@@ -11,8 +12,9 @@ namespace nacre::dashboard {
 
 struct ServerSettings {
   std::string host = "127.0.0.1";
-  int port = 8765;    ///< 0: any free one
-  std::string token;  ///< see AccessRules
+  int port = 8765;                              ///< 0: any free one
+  std::string token;                            ///< see AccessRules
+  std::vector<std::string> further_hosts = {};  ///< names that a tunnel or a proxy keeps, with or without a port
 };
 
 /// Serves until `stop` returns true (called ten times a second). `ready` gets the port. Bodies have at most 4 MiB,

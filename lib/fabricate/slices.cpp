@@ -9,6 +9,7 @@
 
 #include "base/files.hpp"
 #include "base/hash.hpp"
+#include "base/no_space.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
 #include "fabricate/slice_png.hpp"
@@ -25,7 +26,7 @@ bool is_slice_name(const std::string& name) {
 void empty_folder_of_slices(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (failure) throw InputError::format("{}: cannot be made: {}", folder.string(), failure.message());
+  if (failure) refuse_write(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()), failure.value());
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (is_slice_name(entry.path().filename().string())) old.push_back(entry.path());
@@ -38,7 +39,7 @@ void write_plainly(const std::filesystem::path& path, const std::string& bytes) 
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw InputError::format("{}: cannot be written: {}", path.string(), std::strerror(errno));
+  if (!file) refuse_write(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)), errno);
 }
 
 }  // namespace

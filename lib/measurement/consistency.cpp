@@ -174,13 +174,13 @@ std::vector<ProposedOutlier> outliers_among(const Members& valid, const Consiste
   return outliers;
 }
 
-void sum_up(const Members& members, double& mean_pa, double& scatter) {
+void sum_up(const Members& members, std::optional<double>& mean_pa, std::optional<double>& scatter) {
   std::vector<double> values;
   for (const SpecimenRecord* member : members) {
     if (value_of(*member) > 0.0) values.push_back(value_of(*member));
   }
-  mean_pa = values.empty() ? 0.0 : mean(values);
-  scatter = mean_pa > 0.0 ? standard_deviation(values) / mean_pa : 0.0;
+  if (!values.empty()) mean_pa = mean(values);
+  if (values.size() > 1) scatter = standard_deviation(values) / *mean_pa;
 }
 
 std::string representative_of(const Members& members, double mean_pa) {
@@ -214,7 +214,7 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   });
   sum_up(valid, group.mean_pa, group.scatter);
   sum_up(kept, group.mean_without_pa, group.scatter_without);
-  group.representative = representative_of(kept, group.mean_without_pa);
+  group.representative = representative_of(kept, group.mean_without_pa.value_or(0.0));
   group.wanted = std::max({0, settings.fewest_tested - static_cast<int>(members.size()),
                            settings.fewest_consistent - static_cast<int>(kept.size())});
   if (too_many) group.wanted = std::max(group.wanted, 1);

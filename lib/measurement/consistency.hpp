@@ -2,6 +2,7 @@
 // Which replicates agree (thesis 2.2.2: at least four are tested, at least three with the most common and consistent
 // behaviour count). Outliers are proposed with their reason; a person decides.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,9 +51,10 @@ struct ReplicateGroup {
   std::vector<std::string> valid = {};   ///< of them those that count now
   std::vector<ProposedOutlier> proposed = {};
   GroupState state = GroupState::more_needed;
-  int wanted = 0;                                       ///< specimens still to be tested
-  double mean_pa = 0.0, scatter = 0.0;                  ///< of the valid ones: mean and relative standard deviation
-  double mean_without_pa = 0.0, scatter_without = 0.0;  ///< the same without the proposed outliers
+  int wanted = 0;  ///< specimens still to be tested
+  /// Of the valid ones: mean, and relative standard deviation of two and more; nothing where there are none.
+  std::optional<double> mean_pa = {}, scatter = {};
+  std::optional<double> mean_without_pa = {}, scatter_without = {};  ///< the same without the proposed outliers
   std::string representative = {};  ///< valid, not proposed, nearest to the mean and with a curve; may be empty
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -13,8 +14,11 @@
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
 #include "measurement/limits.hpp"
+#include "measurement/loading_part.hpp"
+#include "measurement/plausibility.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::measurement {
@@ -39,25 +43,24 @@ class Exports {
     if (!path) return tl::unexpected(ImportFault{sheet, row.line, "file", path.error().message});
     const auto& records = read(*path, row.columns);
     if (!records) return tl::unexpected(records.error());
-    const auto count = static_cast<int>(records->size());
-    if (row.part == 0 && count > 1) {
-      return tl::unexpected(ImportFault{sheet, row.line, "part",
-                                        fmt::format("`{}` holds {} tests, expected the number of one in the column "
-                                                    "`part` (from 1)",
-                                                    row.file, count)});
+    const auto part = part_of(*records, row.part);
+    if (!part) {
+      return tl::unexpected(ImportFault{
+          sheet, row.line, "part",
+          row.part.empty()
+              ? fmt::format("`{}` holds {} tests, expected the name or number of one in the column `part`: {}",
+                            row.file, records->size(), part.error())
+              : fmt::format("`{}`, but `{}` holds {} tests: {}", row.part, row.file, records->size(), part.error())});
     }
-    if (row.part > count) {
-      return tl::unexpected(
-          ImportFault{sheet, row.line, "part", fmt::format("{}, but `{}` holds {} tests", row.part, row.file, count)});
-    }
-    const int part = std::max(row.part, 1);
-    const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), part}, &row);
+    const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), *part}, &row);
     if (!is_first) {
       return tl::unexpected(ImportFault{sheet, row.line, "file",
                                         fmt::format("`{}` is already specimen {} (line {}), expected a test of its own",
                                                     row.file, owner->second->record.specimen, owner->second->line)});
     }
-    return (*records)[part - 1];
+    const TesterRecord& record = (*records)[*part];
+    if (record.fault) return tl::unexpected(*record.fault);
+    return record;
   }
 
   /// Files that no row names.
@@ -70,6 +73,23 @@ class Exports {
   }
 
  private:
+  /// Place of the part that a sheet names or numbers; the error lists them all.
+  static tl::expected<std::size_t, std::string> part_of(const std::vector<TesterRecord>& records,
+                                                        const std::string& wanted) {
+    constexpr std::size_t kMostNamed = 20;
+    if (records.size() == 1 && wanted.empty()) return 0;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (!wanted.empty() && plain_words(records[i].part) == plain_words(wanted)) return i;
+      if (i < kMostNamed) names.push_back(records[i].part);
+    }
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (error == std::errc{} && end == wanted.data() + wanted.size() && number >= 1 && number <= records.size())
+      return number - 1;
+    return tl::unexpected(fmt::format("{}{}", fmt::join(names, ", "), records.size() > kMostNamed ? ", ..." : ""));
+  }
+
   Result<fs::path> find(const std::string& name) {
     const auto matching = [&](auto same) {
       std::vector<fs::path> found;
@@ -96,7 +116,8 @@ class Exports {
 
   /// Different columns of one file may be different tests.
   static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
-    return path.lexically_normal().string() + '\n' + choice.extension + '\n' + choice.force;
+    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension, choice.force,
+                                                          choice.time, choice.strain, choice.stress, choice.unit);
   }
 
   const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
@@ -119,18 +140,38 @@ class Exports {
   fs::path folder_;
   std::set<std::string> used_;
   std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
-  std::map<std::pair<std::string, int>, const SheetRow*> owners_;  ///< key and part -> the first row of the test
+  std::map<std::pair<std::string, std::size_t>, const SheetRow*>
+      owners_;  ///< key and part -> the first row of the test
 };
 
-tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row) {
+/// Stress over strain as recorded, from `begin` on; `factor` of extension and of force where their units are assumed.
+tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row, const AssumedUnits& units) {
   // N / mm2 = MPa.
-  const double pa_per_newton = 1e6 / (row.width_mm * row.record.conditions.thickness_mm);
+  const double pa_per_newton = 1e6 * units.force_factor / (row.width_mm * row.record.conditions.thickness_mm);
   tester::Curve curve;
-  for (std::size_t i = 0; i < record.force_n.size(); ++i) {
-    curve.strain.push_back((record.extension_mm[i] - record.extension_mm.front()) / row.gauge_mm);
-    curve.stress_pa.push_back(record.force_n[i] * pa_per_newton);
+  curve.strain.reserve(record.line.size());
+  curve.stress_pa.reserve(record.line.size());
+  for (std::size_t i = 0; i < record.line.size(); ++i) {
+    curve.strain.push_back(record.strain.empty()
+                               ? units.extension_factor * (record.extension_mm[i] - record.extension_mm.front()) /
+                                     row.gauge_mm
+                               : record.strain[i] - record.strain.front());
+    curve.stress_pa.push_back(record.stress_pa.empty() ? record.force_n[i] * pa_per_newton : record.stress_pa[i]);
   }
   return curve;
+}
+
+/// Leaves out what stands before the pull; says so.
+void cut_before_pull(std::vector<double>& time_s, tester::Curve& curve, const PullStart& start,
+                     std::vector<std::string>& decisions) {
+  if (start.row == 0) return;
+  const auto rows = static_cast<std::ptrdiff_t>(start.row);
+  curve.strain.erase(curve.strain.begin(), curve.strain.begin() + rows);
+  curve.stress_pa.erase(curve.stress_pa.begin(), curve.stress_pa.begin() + rows);
+  for (double& strain : curve.strain) strain -= start.zero_strain;
+  if (!time_s.empty()) time_s.erase(time_s.begin(), time_s.begin() + rows);
+  decisions.push_back(fmt::format("{} rows before the pull left out ({})", start.row,
+                                  start.was_tared ? "the extension was set to zero" : "the extension stands still"));
 }
 
 void keep_history(const TesterRecord& from, const ReducedTest& test, SpecimenRecord& record) {
@@ -141,6 +182,7 @@ void keep_history(const TesterRecord& from, const ReducedTest& test, SpecimenRec
   keep("peak_stress_pa", test.peak_stress_pa);
   keep("failure_strain", test.failure_strain);
   keep("toe_strain", test.toe_strain);
+  keep("modulus_error_pa", test.modulus_error_pa);
   if (record.test != tester::TestKind::modulus) keep("initial_modulus_pa", test.modulus_pa);
 }
 
@@ -157,6 +199,77 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
   record.note += (record.note.empty() ? "" : "; ") + why;
 }
 
+std::string shown_delimiter(char delimiter) {
+  return delimiter == '\t' ? "tab" : delimiter == ',' ? "comma" : delimiter == ';' ? "semicolon" : "bar";
+}
+
+/// Which file, part, columns and units the numbers came from.
+std::map<std::string, std::string> provenance_of(const TesterRecord& from, const SheetRow& row) {
+  std::map<std::string, std::string> cells = {{"part", from.part},
+                                              {"maker", from.maker},
+                                              {"encoding", from.encoding},
+                                              {"delimiter", shown_delimiter(from.delimiter)},
+                                              {"decimal_mark", std::string(1, from.decimal_mark)},
+                                              {"first_line", fmt::format("{}", from.line.front())},
+                                              {"last_line", fmt::format("{}", from.line.back())},
+                                              {"width_mm", fmt::format("{}", row.width_mm)},
+                                              {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
+  for (const Quantity quantity :
+       {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
+    const auto& column = from.column(quantity);
+    if (!column) continue;
+    cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
+    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit.empty() ? "none" : bare_unit(column->unit);
+    cells[fmt::format("{}_not_taken", to_string(quantity))] = fmt::format("{}", fmt::join(column->not_taken, "; "));
+  }
+  return cells;
+}
+
+/// The units of columns without one, from what the record shows when its numbers are taken as they stand.
+tl::expected<AssumedUnits, std::string> settle_units(const TesterRecord& from, const SheetRow& row, Toe toe) {
+  const bool lacks =
+      lacks_unit(from, Quantity::extension) || lacks_unit(from, Quantity::force) || lacks_unit(from, Quantity::time);
+  for (const Quantity quantity : {Quantity::strain, Quantity::stress}) {
+    if (lacks_unit(from, quantity))
+      return tl::unexpected(
+          fmt::format("column `{}` has no unit that is read, expected one of {} in the heading, or in the "
+                      "column `unit` of the sheet",
+                      from.column(quantity)->heading, expected_units(quantity)));
+  }
+  if (!lacks) return AssumedUnits{};
+  const tester::Curve curve = nominal_curve(from, row, {});
+  const Result<ReducedTest> test = reduce(curve, toe);
+  if (!test) return tl::unexpected(test.error().message);
+  UnitEvidence evidence{.modulus_pa = test->modulus_pa,
+                        .peak_pa = test->peak_stress_pa,
+                        .failure_strain = test->failure_strain,
+                        .rigid_fraction = row.record.design.rigid_fraction(),
+                        .is_homogeneous = row.record.design.mixture() != nullptr};
+  evidence.speed_per_s = row.gauge_mm * strain_rate(from.time_s, curve).value_or(0.0);
+  return assumed_units(from, evidence);
+}
+
+/// The strain rate: the sheet's, else that of the record, else the planned one.
+void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<double>& time_s,
+              const tester::Curve& curve, ImportedSpecimen& imported, std::vector<std::string>& warnings) {
+  double& rate_per_s = imported.record.conditions.strain_rate_per_s;
+  const auto recorded = strain_rate(time_s, curve);
+  imported.rate_source = row.rate_is_given        ? "sheet"
+                         : recorded               ? "record"
+                         : row.planned_rate_per_s ? "planned"
+                                                  : "default";
+  if (row.rate_is_given) return;
+  if (recorded) {
+    rate_per_s = rounded(*recorded, 3);
+  } else if (!from.time_s.empty()) {
+    warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
+                                   imported.record.specimen, rate_per_s));
+  } else {
+    imported.decisions.push_back(fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
+                                             row.planned_rate_per_s ? "the planned one" : "assumed"));
+  }
+}
+
 tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, const TesterRecord& from,
                                                        const std::string& shown_file, const ImportSettings& settings,
                                                        std::vector<std::string>& warnings) {
@@ -164,9 +277,28 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
     return tl::unexpected(
         ImportFault{shown_file, from.line.empty() ? 0 : from.line.front(), std::move(column), std::move(reason)});
   };
-  if (from.force_n.size() < kFewestCurveRows)
-    return fault("", fmt::format("has {} rows of data, expected at least {}", from.force_n.size(), kFewestCurveRows));
-  const tester::Curve curve = nominal_curve(from, row);
+  if (from.line.size() < kFewestCurveRows)
+    return fault("", fmt::format("has {} rows of data, expected at least {}", from.line.size(), kFewestCurveRows));
+  ImportedSpecimen imported{
+      .record = row.record,
+      .file = shown_file,
+      .line = row.line,
+      .maker = from.maker,
+      .extension_column = from.column(Quantity::extension) ? from.column(Quantity::extension)->heading : std::string(),
+      .gauge_mm = row.gauge_mm,
+      .decisions = from.decisions};
+  tester::Curve curve = nominal_curve(from, row, {});
+  const PullStart start = pull_start(from.time_s, curve);
+  if (const auto implausible = implausible_record(from, start.row, shown_file)) return tl::unexpected(*implausible);
+  const auto units = settle_units(from, row, settings.toe);
+  if (!units) return fault("", units.error());
+  for (const std::string& said : units->said) {
+    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, said));
+    imported.decisions.push_back(said);
+  }
+  std::vector<double> time_s = units->time_factor == 0.0 ? std::vector<double>{} : from.time_s;
+  if (units->extension_factor != 1.0 || units->force_factor != 1.0) curve = nominal_curve(from, row, *units);
+  cut_before_pull(time_s, curve, pull_start(time_s, curve), imported.decisions);
   const auto least = std::min_element(curve.strain.begin(), curve.strain.end());
   if (*least <= -1.0)
     return fault("extension",
@@ -179,19 +311,9 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   // The area of a modulus test that is unloaded is noise; linear_part() has checked its sign.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
-  ImportedSpecimen imported{.record = row.record,
-                            .file = shown_file,
-                            .line = row.line,
-                            .maker = from.maker,
-                            .extension_column = from.extension_column,
-                            .gauge_mm = row.gauge_mm,
-                            .test = *test};
-  const auto rate = strain_rate(from.time_s, curve);
-  if (rate && !row.rate_is_given) imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
-  if (!rate && !row.rate_is_given && !from.time_s.empty()) {
-    warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
-                                   imported.record.specimen, imported.record.conditions.strain_rate_per_s));
-  }
+  imported.test = *test;
+  imported.provenance = provenance_of(from, row);
+  set_rate(from, row, time_s, curve, imported, warnings);
   set_values(*test, imported.record);
   keep_history(from, *test, imported.record);
   return imported;
@@ -215,24 +337,25 @@ std::string doubt_of_size(const SheetRow& row) {
 /// section holds any extensometer's gauge, the travel of its grips belongs to a longer one (ASTM D638, type I).
 std::string doubt_of_gauge(const TesterRecord& from, const SheetRow& row) {
   constexpr double kNarrowSectionMm = 57.0;
-  const std::string also = from.other_extensions.empty()
-                               ? ""
-                               : fmt::format(" (the file also has `{}`)", fmt::join(from.other_extensions, "`, `"));
-  const bool same_name = std::count(from.other_extensions.begin(), from.other_extensions.end(), from.extension_column);
-  if (same_name)
-    return fmt::format("`{}` occurs twice in the file, the first was taken: expected names that differ",
-                       from.extension_column);
+  if (!from.column(Quantity::extension)) return "";
+  const TakenColumn& taken = *from.column(Quantity::extension);
+  std::vector<std::string> others = taken.not_taken;
+  others.insert(others.end(), from.strains.begin(), from.strains.end());
+  const std::string also = others.empty() ? "" : fmt::format(" (the file also has `{}`)", fmt::join(others, "`, `"));
+  if (std::count(taken.not_taken.begin(), taken.not_taken.end(), taken.heading) > 0)
+    return fmt::format("`{}` occurs twice in the file, the first was taken: expected names that differ", taken.heading);
   if (row.record.test == tester::TestKind::toughness) return "";
   const bool short_gauge = row.gauge_mm <= kNarrowSectionMm;
-  const bool of_grips = from.gauge == Gauge::grips || !from.other_extensions.empty();
-  if (short_gauge && from.gauge != Gauge::extensometer && of_grips)
+  const bool is_named = !row.columns.extension.empty();
+  const bool of_grips = taken.gauge == Gauge::grips || (!is_named && !others.empty());
+  if (short_gauge && taken.gauge != Gauge::extensometer && of_grips)
     return fmt::format(
         "gauge_mm {} is an extensometer's, but the extension is that of `{}`{}: expected extension_column with the "
         "name of its column, or the gauge of the grips' travel (104.9 for a bar of ASTM D638, type I)",
-        row.gauge_mm, from.extension_column, also);
-  if (!short_gauge && from.gauge == Gauge::extensometer)
+        row.gauge_mm, taken.heading, also);
+  if (!short_gauge && taken.gauge == Gauge::extensometer)
     return fmt::format("gauge_mm {} is longer than a bar's narrow section, but the extension is that of `{}`{}",
-                       row.gauge_mm, from.extension_column, also);
+                       row.gauge_mm, taken.heading, also);
   return "";
 }
 

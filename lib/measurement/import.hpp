@@ -2,6 +2,7 @@
 // Raw exports of a testing machine and a sheet of specimens -> measured specimens.
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,9 +19,12 @@ struct ImportedSpecimen {
   std::string file;
   int line = 0;  ///< of the sheet
   std::string maker;
-  std::string extension_column;  ///< its heading; empty where there is none
-  double gauge_mm = 0.0;         ///< assumed for the extension
-  ReducedTest test;
+  std::string extension_column;                        ///< its heading; empty where there is none
+  double gauge_mm = 0.0;                               ///< assumed for the extension
+  std::vector<std::string> decisions = {};             ///< columns taken and not, units, rows left out: sentences
+  std::string rate_source = {};                        ///< `sheet`, `record`, `planned`, `default`
+  std::map<std::string, std::string> provenance = {};  ///< cells of provenance.csv by column
+  ReducedTest test = {};
 };
 
 struct Import {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/statistics.hpp"
+#include "measurement/loading_part.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -16,10 +18,11 @@ constexpr double kVague = 0.2;      // standard error over slope above which a p
 // Standard errors up to which a bend is taken for noise. A missed toe lowers the modulus, a missed straight part costs
 // only points; if noise shortened windows, it would select among their slopes.
 constexpr double kErrorsOfToe = 0.5, kErrorsOfBend = 1.0, kErrorsWhileVague = 2.5;
-constexpr double kWidened = 1.25;           // factor by which a window is widened at once
-constexpr double kSeparated = 0.02;         // of the peak stress
-constexpr double kMostGivenBack = 0.05;     // of the largest strain: noise and recoil of the grips
-constexpr std::size_t kMostStretches = 20;  // of a record, each with a rate of its own
+constexpr double kWidened = 1.25;        // factor by which a window is widened at once
+constexpr double kSeparated = 0.02;      // of the peak stress
+constexpr double kMostGivenBack = 0.05;  // of the largest strain: noise and recoil of the grips
+constexpr double kNoisy = 0.2;           // noise of the strain over its step above which rows are not ordered by it
+constexpr double kWithinNoise = 6.0;     // standard deviations below the largest strain
 constexpr std::size_t kFewestPoints = 3, kEnoughPoints = 5;
 
 struct FittedLine {
@@ -27,11 +30,20 @@ struct FittedLine {
   double zero = 0.0;
 };
 
+/// Sums over the first points of a path, about its middle: they make the fit of any window a matter of differences.
+struct Sums {
+  long double x = 0.0L, y = 0.0L, xx = 0.0L, xy = 0.0L, yy = 0.0L;
+};
+
 /// First loading: the part of a curve before its peak without loops of unloading.
 struct FirstLoading {
   std::vector<std::size_t> index;  ///< of the curve
   std::vector<double> strain, stress_pa;
+  std::vector<double> risen;     ///< isotonic regression of the strain
   std::vector<double> risen_pa;  ///< isotonic regression of the stress: the nearest that never falls
+  std::vector<Sums> sums;        ///< before each point, and of all
+  double middle = 0.0, middle_pa = 0.0;
+  double strain_noise = 0.0, stress_noise_pa = 0.0;  ///< standard deviations; 0 where the strain has none to speak of
   std::size_t size() const { return index.size(); }
   double peak_pa() const { return risen_pa.back(); }
 };
@@ -57,15 +69,45 @@ std::vector<double> nearest_rising(const std::vector<double>& values) {
   return rising;
 }
 
+/// Standard deviation of the noise of a series, from its second differences: a ramp has none.
+double noise_of(const std::vector<double>& values, std::size_t count) {
+  constexpr double kMedianOfNormal = 0.6745;
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    bends.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+  return bends.empty() ? 0.0 : quantile(std::move(bends), 0.5) / (kMedianOfNormal * std::sqrt(6.0));
+}
+
+/// Rows of first loading: every one whose strain exceeds the earlier ones; where the strain is noisy, every one that is
+/// not below them by more than noise. Only the highest of noisy rows would lean to one side.
 FirstLoading first_loading(const tester::Curve& curve, std::size_t peak) {
   FirstLoading path;
+  const double noise = noise_of(curve.strain, peak + 1);
+  const double range =
+      *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1) -
+      curve.strain.front();
+  if (noise > kNoisy * std::abs(range) / static_cast<double>(peak + 1)) {
+    path.strain_noise = noise;
+    path.stress_noise_pa = noise_of(curve.stress_pa, peak + 1);
+  }
+  double largest = 0.0;
   for (std::size_t i = 0; i <= peak; ++i) {
-    if (path.size() > 0 && curve.strain[i] <= path.strain.back()) continue;
+    if (path.size() > 0 && curve.strain[i] <= largest - kWithinNoise * path.strain_noise) continue;
+    largest = path.size() > 0 ? std::max(largest, curve.strain[i]) : curve.strain[i];
     path.index.push_back(i);
     path.strain.push_back(curve.strain[i]);
     path.stress_pa.push_back(curve.stress_pa[i]);
   }
   path.risen_pa = nearest_rising(path.stress_pa);
+  path.risen = nearest_rising(path.strain);
+  path.middle = mean(path.strain);
+  path.middle_pa = mean(path.stress_pa);
+  path.sums.resize(path.size() + 1);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const long double x = path.strain[i] - path.middle, y = path.stress_pa[i] - path.middle_pa;
+    const Sums& before = path.sums[i];
+    path.sums[i + 1] = {before.x + x, before.y + y, before.xx + x * x, before.xy + x * y, before.yy + y * y};
+  }
   return path;
 }
 
@@ -94,7 +136,29 @@ FittedLine fit(const std::vector<double>& x, const std::vector<double>& y, Slope
   return {slope, error, mean_x - mean_y / slope};
 }
 
-FittedLine fit(const FirstLoading& path, SlopeWindow window) { return fit(path.strain, path.stress_pa, window); }
+/// Deming regression where the strain is noisy (errors in both, their ratio from the record), else least squares. The
+/// slope's error is that of its residuals.
+FittedLine fit(const FirstLoading& path, SlopeWindow window) {
+  const Sums &before = path.sums[window.first], &after = path.sums[window.last + 1];
+  const long double count = static_cast<long double>(window.points());
+  const long double x = after.x - before.x, y = after.y - before.y;
+  const long double xx = std::max(after.xx - before.xx - x * x / count, 0.0L);
+  const long double yy = std::max(after.yy - before.yy - y * y / count, 0.0L);
+  const long double xy = after.xy - before.xy - x * y / count;
+  constexpr long double kRounding = 1e-15L;  // of the products of the whole path
+  if (std::abs(xy) <= kRounding * std::sqrt(path.sums.back().xx * path.sums.back().yy))
+    return {0.0, static_cast<double>(count > 2.0L ? std::sqrt(yy / (count - 2.0L) / xx) : 0.0L), 0.0};
+  long double slope = xy / xx;
+  if (path.strain_noise > 0.0) {
+    const long double ratio = std::pow(path.stress_noise_pa / path.strain_noise, 2.0);
+    const long double half = yy - ratio * xx;
+    slope = (half + std::sqrt(half * half + 4.0L * ratio * xy * xy)) / (2.0L * xy);
+  }
+  const long double unexplained = std::max(xx * yy / (xy * xy) - 1.0L, 0.0L);
+  const long double error = count > 2.0L ? std::abs(slope) * std::sqrt(unexplained / (count - 2.0L)) : 0.0L;
+  const long double zero = path.middle + x / count - (path.middle_pa + y / count) / slope;
+  return {static_cast<double>(slope), static_cast<double>(error), static_cast<double>(zero)};
+}
 
 /// How much steeper the second half of a window is than the first, over the slope of the whole, and the standard error
 /// of that.
@@ -123,7 +187,7 @@ class Windows {
   /// known to 1 %.
   std::optional<SlopeWindow> from(std::size_t first) const {
     const std::size_t enough = std::min(reached(path_.risen_pa[first] + kWindow * path_.peak_pa()),
-                                        strained(path_.strain[first] + kLongestWindow));
+                                        strained(path_.risen[first] + kLongestWindow));
     SlopeWindow window{first, std::min(std::max(enough, first + kEnoughPoints - 1), path_.size() - 1)};
     if (window.points() < kFewestPoints) return std::nullopt;
     const auto is_vague = [&] {
@@ -145,7 +209,7 @@ class Windows {
 
   std::size_t next(std::size_t first) const {
     return std::max(first + 1, std::min(reached(path_.risen_pa[first] + kStartStep * path_.peak_pa()),
-                                        strained(path_.strain[first] + kStartStepStrain)));
+                                        strained(path_.risen[first] + kStartStepStrain)));
   }
 
  private:
@@ -153,7 +217,7 @@ class Windows {
     return static_cast<std::size_t>(std::lower_bound(rising.begin(), rising.end(), level) - rising.begin());
   }
   std::size_t reached(double stress_pa) const { return first_at(path_.risen_pa, stress_pa); }
-  std::size_t strained(double strain) const { return first_at(path_.strain, strain); }
+  std::size_t strained(double strain) const { return first_at(path_.risen, strain); }
   SlopeWindow widened(SlopeWindow window) const {
     const auto longer = static_cast<std::size_t>(kWidened * static_cast<double>(window.points()));
     return {window.first, std::min(std::max(window.first + longer, window.last + 1), end_)};
@@ -223,6 +287,41 @@ tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, do
   return shifted;
 }
 
+constexpr double kStill = 0.25, kMoving = 0.5;  // of a rate
+constexpr std::size_t kStretches = 4;           // of the window of the rate
+
+/// The longest part of a window in which the strain moves at half of `rate` and more.
+SlopeWindow longest_moving(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window,
+                           double rate) {
+  SlopeWindow longest{window.first, window.first};
+  std::size_t begin = window.first;
+  for (std::size_t i = window.first; i + kEnoughPoints <= window.last; ++i) {
+    const std::size_t next = i + kEnoughPoints;
+    if (strains[next] - strains[i] < kMoving * rate * (times[next] - times[i])) {
+      begin = i + 1;
+    } else if (next - begin > longest.last - longest.first) {
+      longest = {begin, next};
+    }
+  }
+  return longest;
+}
+
+/// Where a test was held in a window, the part in which it moved; else the window.
+SlopeWindow without_hold(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window) {
+  if (window.points() < 2 * kStretches * kEnoughPoints) return window;
+  double slowest = 0.0, fastest = 0.0;
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    const SlopeWindow stretch{window.first + i * window.points() / kStretches,
+                              window.first + (i + 1) * window.points() / kStretches - 1};
+    const double rate = fit(times, strains, stretch).slope;
+    slowest = i == 0 ? rate : std::min(slowest, rate);
+    fastest = std::max(fastest, rate);
+  }
+  if (slowest > kStill * fastest) return window;
+  const SlopeWindow moving = longest_moving(times, strains, window, fastest);
+  return moving.points() >= kEnoughPoints ? moving : window;
+}
+
 }  // namespace
 
 tester::Curve forward_part(const tester::Curve& curve) {
@@ -258,6 +357,8 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
   ReducedTest test;
   test.modulus_pa = part->slope_pa;
   test.modulus_error_pa = part->slope_error_pa;
+  test.straight_from_pa = curve.stress_pa[part->first];
+  test.straight_to_pa = curve.stress_pa[part->last];
   const double found = toe == Toe::compensate ? toe_of(curve, *part) : 0.0;
   const bool is_small = std::abs(found) <= kLargestToe;
   (is_small ? test.toe_strain : test.toe_kept) = found;
@@ -281,22 +382,25 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
 }
 
 std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve) {
+  tester::Curve ticks;  // rows between two ticks of the clock have the same time
+  std::vector<double> times;
   const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
                                              curve.stress_pa.begin());
-  std::vector<double> times, strains;  // at the ticks of the clock: rows between two ticks have the same time
   for (std::size_t i = 0; i < std::min(time_s.size(), peak + 1); ++i) {
     if (!times.empty() && time_s[i] <= times.back()) continue;
     times.push_back(time_s[i]);
-    strains.push_back(curve.strain[i]);
+    ticks.strain.push_back(curve.strain[i]);
+    ticks.stress_pa.push_back(curve.stress_pa[i]);
   }
   if (times.size() < kFewestPoints) return std::nullopt;
-  const std::size_t stretches = std::clamp<std::size_t>(times.size() / kEnoughPoints, 1, kMostStretches);
-  std::vector<double> rates;
-  for (std::size_t i = 0; i < stretches; ++i) {
-    const SlopeWindow stretch{i * times.size() / stretches, (i + 1) * times.size() / stretches - 1};
-    rates.push_back(std::abs(fit(times, strains, stretch).slope));
+  SlopeWindow window{0, times.size() - 1};
+  for (const auto& [from, to] : {std::pair(0.1, 0.4), std::pair(0.05, 0.6), std::pair(0.0, 1.0)}) {
+    const Rise rise = rise_of(ticks, from, to);
+    window = {rise.first, rise.last};
+    if (window.points() >= kEnoughPoints) break;
   }
-  const double rate_per_s = quantile(std::move(rates), 0.5);
+  if (window.points() < kFewestPoints) window = {0, times.size() - 1};
+  const double rate_per_s = std::abs(fit(times, ticks.strain, without_hold(times, ticks.strain, window)).slope);
   return rate_per_s > 0.0 ? std::optional(rate_per_s) : std::nullopt;
 }
 

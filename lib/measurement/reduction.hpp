@@ -42,9 +42,10 @@ Result<LinearPart> linear_part(const tester::Curve& curve);
 /// The properties and the curve of a test.
 struct ReducedTest {
   tester::Curve curve;  ///< nominal; all cycles kept; to separation when the specimen separated
-  double modulus_pa = 0.0, modulus_error_pa = 0.0;  ///< with its standard error
-  double toe_strain = 0.0;                          ///< toe that was compensated; 0 when it is kept
-  double toe_kept = 0.0;                            ///< toe that was not compensated, beyond kLargestToe
+  double modulus_pa = 0.0, modulus_error_pa = 0.0;      ///< with its standard error
+  double straight_from_pa = 0.0, straight_to_pa = 0.0;  ///< stresses between which the straight part lies
+  double toe_strain = 0.0;                              ///< toe that was compensated; 0 when it is kept
+  double toe_kept = 0.0;                                ///< toe that was not compensated, beyond kLargestToe
   double peak_stress_pa = 0.0;
   double stiffening = 0.0;      ///< peak stress over modulus times its strain: below 1 for materials that yield
   double failure_strain = 0.0;  ///< at separation, else the largest of the record
@@ -57,8 +58,9 @@ struct ReducedTest {
 /// `curve`: nominal stress over nominal strain as recorded, at least five points. Error as of linear_part().
 Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe);
 
-/// Strain rate up to the peak stress, 1/s: the median over up to 20 stretches of the slope of strain over time
-/// by least squares. Nothing without time, or where time does not advance.
+/// Strain rate of loading, 1/s: the slope of strain over time by least squares between 10 and 40 % of the peak stress;
+/// where fewer than five points lie there, up to the peak. Of a test that was held there, the rate at which it moves.
+/// Nothing without time, or where time does not advance.
 std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve);
 
 }  // namespace nacre::measurement

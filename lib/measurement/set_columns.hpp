@@ -31,8 +31,16 @@ inline constexpr std::array<std::string_view, kColumnCount> kColumns = {
     "curve",    "valid",       "note"};
 
 /// Further columns that `nacre import` writes: kept with the specimen like any other column, but known.
-inline constexpr std::array<std::string_view, 10> kHistoryColumns = {
-    "date", "operator",       "machine",        "path",       "order_id",
-    "tray", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
+inline constexpr std::array<std::string_view, 11> kHistoryColumns = {"date",
+                                                                     "operator",
+                                                                     "machine",
+                                                                     "path",
+                                                                     "order_id",
+                                                                     "tray",
+                                                                     "peak_stress_pa",
+                                                                     "failure_strain",
+                                                                     "toe_strain",
+                                                                     "initial_modulus_pa",
+                                                                     "modulus_error_pa"};
 
 }  // namespace nacre::measurement

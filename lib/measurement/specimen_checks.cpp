@@ -6,11 +6,37 @@
 #include <fmt/format.h>
 
 #include "measurement/limits.hpp"
+#include "measurement/reduction.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {
+
+/// Young's modulus of a mixture of the thesis' inks, roughly: straight in its logarithm up to one half, then linear.
+double usual_modulus_pa(double rigid_fraction) {
+  constexpr double kSoft = 1e6, kHalf = 5.6e8, kRigid = 2e9;
+  if (rigid_fraction <= 0.5) return kSoft * std::pow(kHalf / kSoft, rigid_fraction / 0.5);
+  return kHalf + (kRigid - kHalf) * (rigid_fraction - 0.5) / 0.5;
+}
+
+/// A modulus that no mixture of this kind has: strains in per cent make it a hundredth.
+void collect_modulus_doubt(const SpecimenRecord& record, std::vector<std::string>& doubts) {
+  constexpr double kFar = 20.0, kPerCent = 100.0;
+  if (!record.design.mixture() || record.curve.size() < kFewestCurveRows || record.modulus_pa) return;
+  const auto part = linear_part(record.curve);
+  if (!part || !(part->slope_pa > 0.0)) return;
+  const double usual = usual_modulus_pa(record.design.rigid_fraction());
+  const double ratio = part->slope_pa / usual;
+  if (ratio > 1.0 / kFar && ratio < kFar) return;
+  const bool per_cent = ratio * kPerCent > 1.0 / kFar && ratio * kPerCent < kFar && ratio < 1.0;
+  if (!per_cent && record.test == tester::TestKind::toughness) return;  // a notch has a modulus of its own
+  doubts.push_back(fmt::format(
+      "column curve: its modulus, {:.3g} Pa, is unusual for {}{}", part->slope_pa, record.design.name(),
+      per_cent
+          ? fmt::format("; is strain in per cent, not a ratio? Then it would be {:.3g} Pa", kPerCent * part->slope_pa)
+          : "; are the units strain 1 and stress Pa?"));
+}
 
 /// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
 void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>& doubts) {
@@ -20,11 +46,13 @@ void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>
   const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
   if (!kUsualPeakPa.hold(peak_pa))
     doubt(fmt::format("the largest stress, {:.3g}, is unusual; is the unit Pa?", peak_pa));
-  if (strain > kMostUsualStrain)
+  constexpr double kMostOfStiff = 1.0, kStiff = 0.3;  // a composite with that much rigid ink
+  if (strain > (record.design.rigid_fraction() > kStiff ? kMostOfStiff : kMostUsualStrain))
     doubt(fmt::format("strain reaches {:.3g}, which is unusual; is it a ratio, not per cent?", strain));
   if (record.test == tester::TestKind::toughness && record.curve.stress_pa.back() > kNotSeparated * peak_pa)
     doubt(fmt::format("ends at {:.0f} % of its largest stress, expected a pull to separation",
                       100.0 * record.curve.stress_pa.back() / peak_pa));
+  collect_modulus_doubt(record, doubts);
 }
 
 }  // namespace

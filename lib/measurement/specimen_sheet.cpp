@@ -15,6 +15,8 @@
 #include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_checks.hpp"
+#include "measurement/tester_encoding.hpp"
+#include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 
@@ -24,7 +26,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
                                                        "width_mm", "thickness_mm", "gauge_mm"};
 /// `loading` is an instruction to the operator and is not read: the export has the actual loading.
-constexpr std::array<std::string_view, 12> kOptional = {"part",
+constexpr std::array<std::string_view, 16> kOptional = {"part",
                                                         "test",
                                                         "orientation_deg",
                                                         "strain_rate_per_s",
@@ -35,14 +37,19 @@ constexpr std::array<std::string_view, 12> kOptional = {"part",
                                                         "valid",
                                                         "extension_column",
                                                         "force_column",
+                                                        "time_column",
+                                                        "strain_column",
+                                                        "stress_column",
+                                                        "unit",
                                                         "note"};
 constexpr std::array<std::string_view, 6> kMeasured = {
     "width_mm", "thickness_mm", "gauge_mm", "orientation_deg", "strain_rate_per_s", "planned_strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 /// Columns that the set computes from the export: the sheet's own columns of these names are dropped.
-constexpr std::array<std::string_view, 7> kWorkedOut = {
-    "modulus_pa", "toughness_pa", "curve", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
+constexpr std::array<std::string_view, 8> kWorkedOut = {"modulus_pa",         "toughness_pa",    "curve",
+                                                        "peak_stress_pa",     "failure_strain",  "toe_strain",
+                                                        "initial_modulus_pa", "modulus_error_pa"};
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {
@@ -260,7 +267,8 @@ class SheetReader {
     } else {
       reject("test", fmt::format("`{}` is not a test, expected modulus, toughness or tensile", test));
     }
-    row.part = integer_from_1("part");
+    row.part = text("part");
+    if (looks_like_number(row.part) && row.part.find_first_of(".,") != std::string::npos) integer_from_1("part");
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
@@ -274,7 +282,12 @@ class SheetReader {
     record.note = text("note");
     if (record.valid && record.test == tester::TestKind::tensile && !record.design.mixture())
       reject("pattern", fmt::format("`{}`: {}", text("pattern"), kTensileIsHomogeneous));
-    row.columns = {text("extension_column"), text("force_column")};
+    row.columns = {.extension = text("extension_column"),
+                   .force = text("force_column"),
+                   .time = text("time_column"),
+                   .strain = text("strain_column"),
+                   .stress = text("stress_column"),
+                   .unit = text("unit")};
     for (const std::string& name : heading_) {
       if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name))
         continue;

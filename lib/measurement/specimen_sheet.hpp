@@ -22,7 +22,7 @@ inline constexpr std::string_view kJobHeading =
 struct SheetRow {
   int line = 0;
   std::string file;
-  int part = 0;  ///< which test of the file, from 1; 0: the file holds one
+  std::string part;  ///< which test of the file: its name, or its number from 1; empty: the file holds one
   SpecimenRecord record;
   double width_mm = 0.0;
   double gauge_mm = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/csv.hpp"
 #include "measurement/tester_text.hpp"
@@ -9,244 +10,264 @@
 namespace nacre::measurement {
 namespace {
 
-struct NamedUnit {
-  Quantity quantity;
-  std::string_view name;
-  double factor;
-};
-
-constexpr double kInchMm = 25.4, kPoundForceN = 4.4482216152605, kKilogramForceN = 9.80665;
-constexpr std::array kUnits = {
-    NamedUnit{Quantity::time, "s", 1.0},
-    NamedUnit{Quantity::time, "sec", 1.0},
-    NamedUnit{Quantity::time, "secs", 1.0},
-    NamedUnit{Quantity::time, "second", 1.0},
-    NamedUnit{Quantity::time, "seconds", 1.0},
-    NamedUnit{Quantity::time, "sek", 1.0},
-    NamedUnit{Quantity::time, "ms", 1e-3},
-    NamedUnit{Quantity::time, "msec", 1e-3},
-    NamedUnit{Quantity::time, "min", 60.0},
-    NamedUnit{Quantity::time, "minutes", 60.0},
-    NamedUnit{Quantity::time, "h", 3600.0},
-    NamedUnit{Quantity::time, "hr", 3600.0},
-    NamedUnit{Quantity::extension, "mm", 1.0},
-    NamedUnit{Quantity::extension, "cm", 10.0},
-    NamedUnit{Quantity::extension, "m", 1000.0},
-    NamedUnit{Quantity::extension, "um", 1e-3},
-    NamedUnit{Quantity::extension, "in", kInchMm},
-    NamedUnit{Quantity::extension, "in.", kInchMm},
-    NamedUnit{Quantity::extension, "inch", kInchMm},
-    NamedUnit{Quantity::extension, "inches", kInchMm},
-    NamedUnit{Quantity::extension, "\"", kInchMm},
-    NamedUnit{Quantity::extension, "mil", 1e-3 * kInchMm},
-    NamedUnit{Quantity::extension, "mils", 1e-3 * kInchMm},
-    NamedUnit{Quantity::extension, "ft", 12 * kInchMm},
-    NamedUnit{Quantity::force, "n", 1.0},
-    NamedUnit{Quantity::force, "newton", 1.0},
-    NamedUnit{Quantity::force, "kn", 1e3},
-    NamedUnit{Quantity::force, "mn", 1e-3},
-    NamedUnit{Quantity::force, "dan", 10.0},
-    NamedUnit{Quantity::force, "lbf", kPoundForceN},
-    NamedUnit{Quantity::force, "lb", kPoundForceN},
-    NamedUnit{Quantity::force, "lbs", kPoundForceN},
-    NamedUnit{Quantity::force, "klbf", 1e3 * kPoundForceN},
-    NamedUnit{Quantity::force, "kip", 1e3 * kPoundForceN},
-    NamedUnit{Quantity::force, "kips", 1e3 * kPoundForceN},
-    NamedUnit{Quantity::force, "ozf", kPoundForceN / 16},
-    NamedUnit{Quantity::force, "kgf", kKilogramForceN},
-    NamedUnit{Quantity::force, "kp", kKilogramForceN},
-    NamedUnit{Quantity::force, "gf", 1e-3 * kKilogramForceN},
-};
-
-struct NamedQuantity {
-  Quantity quantity;
-  std::string_view word;  ///< the name is this, or holds it as whole words
-  int rank;
-};
-
-/// In English, German, French, Spanish, Italian. An extensometer measures a part of the specimen: it is taken only
-/// where it is asked for, or is the only one.
-constexpr std::array kWords = {
-    NamedQuantity{Quantity::extension, "extension", 0},
-    NamedQuantity{Quantity::extension, "standard travel", 1},
-    NamedQuantity{Quantity::extension, "standardweg", 1},
-    NamedQuantity{Quantity::extension, "displacement", 2},
-    NamedQuantity{Quantity::extension, "crosshead", 3},
-    NamedQuantity{Quantity::extension, "crosshead travel", 3},
-    NamedQuantity{Quantity::extension, "traverse", 3},
-    NamedQuantity{Quantity::extension, "traversenweg", 3},
-    NamedQuantity{Quantity::extension, "weg", 3},
-    NamedQuantity{Quantity::extension, "travel", 3},
-    NamedQuantity{Quantity::extension, "elongation", 3},
-    NamedQuantity{Quantity::extension, "verlaengerung", 3},
-    NamedQuantity{Quantity::extension, "allongement", 3},
-    NamedQuantity{Quantity::extension, "deplacement", 3},
-    NamedQuantity{Quantity::extension, "desplazamiento", 3},
-    NamedQuantity{Quantity::extension, "spostamento", 3},
-    NamedQuantity{Quantity::extension, "allungamento", 3},
-    NamedQuantity{Quantity::extension, "alargamiento", 3},
-    NamedQuantity{Quantity::extension, "stroke", 4},
-    NamedQuantity{Quantity::extension, "position", 5},
-    NamedQuantity{Quantity::extension, "verformung", 6},
-    NamedQuantity{Quantity::extension, "deformation", 6},
-    NamedQuantity{Quantity::extension, "extensometer", 9},
-    NamedQuantity{Quantity::extension, "laengenaenderungsaufnehmer", 9},
-    NamedQuantity{Quantity::extension, "feindehnung", 9},
-    NamedQuantity{Quantity::extension, "dl", 3},
-    NamedQuantity{Quantity::extension, "laengenaenderung", 3},
-    NamedQuantity{Quantity::force, "force", 0},
-    NamedQuantity{Quantity::force, "standard force", 0},
-    NamedQuantity{Quantity::force, "standardkraft", 0},
-    NamedQuantity{Quantity::force, "load", 1},
-    NamedQuantity{Quantity::force, "kraft", 1},
-    NamedQuantity{Quantity::force, "pruefkraft", 1},
-    NamedQuantity{Quantity::force, "charge", 1},
-    NamedQuantity{Quantity::force, "effort", 1},
-    NamedQuantity{Quantity::force, "fuerza", 1},
-    NamedQuantity{Quantity::force, "carga", 1},
-    NamedQuantity{Quantity::force, "forza", 1},
-    NamedQuantity{Quantity::force, "carico", 1},
-    NamedQuantity{Quantity::force, "last", 1},
-    NamedQuantity{Quantity::force, "f", 2},
-    NamedQuantity{Quantity::time, "test time", 0},
-    NamedQuantity{Quantity::time, "pruefzeit", 0},
-    NamedQuantity{Quantity::time, "running time", 0},
-    NamedQuantity{Quantity::time, "elapsed time", 0},
-    NamedQuantity{Quantity::time, "time", 1},
-    NamedQuantity{Quantity::time, "zeit", 1},
-    NamedQuantity{Quantity::time, "temps", 1},
-    NamedQuantity{Quantity::time, "tiempo", 1},
-    NamedQuantity{Quantity::time, "tempo", 1},
-    NamedQuantity{Quantity::time, "t", 2},
-};
-
 /// Words of names that tell where an extension was recorded; any other name is ambiguous.
-constexpr std::array<std::string_view, 7> kGripWords = {"crosshead", "travel", "traverse",   "traversenweg",
-                                                        "weg",       "stroke", "standardweg"};
-constexpr std::array<std::string_view, 3> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
-                                                                "feindehnung"};
+constexpr std::array<std::string_view, 12> kGripWords = {"crosshead", "travel", "traverse",    "traversenweg",
+                                                         "weg",       "stroke", "standardweg", "course",
+                                                         "carrera",   "corsa",  "ストローク",  "横梁"};
+constexpr std::array<std::string_view, 11> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
+                                                                 "feindehnung",  "feindehnungsaufnehmer",
+                                                                 "wegaufnehmer", "extensometre",
+                                                                 "extensometro", "estensimetro",
+                                                                 "estensometro", "伸び計",
+                                                                 "引伸计"};
 
-/// Words that give a name of the list another meaning.
-constexpr std::array<std::string_view, 18> kOthers = {"strain", "stress", "dehnung", "spannung", "rate",  "date",
-                                                      "speed",  "cell",   "count",   "maximum",  "max",   "zeitstempel",
-                                                      "true",   "at",     "bei",     "break",    "bruch", "yield"};
+template <class Words>
+bool holds_any(std::string_view name, const Words& words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return holds_word(name, word); });
+}
 
-bool holds_word(std::string_view text, std::string_view word) {
-  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    const auto is_letter = [&](std::size_t i) { return i < text.size() && text[i] >= 'a' && text[i] <= 'z'; };
-    if ((at == 0 || !is_letter(at - 1)) && !is_letter(end)) return true;
+/// Whether the name holds a marker, or a compound word that begins or ends with one (Sollkraft, Kraftsollwert).
+bool holds_marker(std::string_view name, std::span<const std::string_view> words) {
+  constexpr std::size_t kLongEnough = 4;
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    if (holds_word(name, word)) return true;
+    if (word.size() < kLongEnough) return false;
+    const std::size_t at = name.find(word);
+    const bool german = word == "soll" || word == "sollwert" || word == "vorgabe" || word == "rohwert" ||
+                        word == "setpoint" || word == "command" || word == "consigne" || word == "quer" ||
+                        word == "breite";
+    if (at == std::string_view::npos || !german) return false;
+    return !(word == "quer" && name.substr(at).starts_with("querhaupt"));
+  });
+}
+
+constexpr std::string_view kBrackets = "([{<", kClosing = ")]}>";
+
+/// The text of a heading in brackets, and its place.
+struct Bracketed {
+  std::size_t begin = 0, end = 0;  ///< with the brackets
+  std::string text;
+};
+
+/// Outermost brackets, first to last; those that are never closed are left out.
+std::vector<Bracketed> brackets_of(std::string_view name) {
+  std::vector<Bracketed> found;
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (kBrackets.find(name[i]) != std::string_view::npos && depth++ == 0) begin = i;
+    if (kClosing.find(name[i]) == std::string_view::npos || depth == 0 || --depth > 0) continue;
+    found.push_back({begin, i + 1, std::string(trimmed(name.substr(begin + 1, i - begin - 1)))});
   }
-  return false;
+  return found;
 }
 
-Gauge gauge_of(std::string_view name) {
-  const auto is_held = [&](std::string_view word) { return holds_word(name, word); };
-  if (std::any_of(kExtensometerWords.begin(), kExtensometerWords.end(), is_held)) return Gauge::extensometer;
-  return std::any_of(kGripWords.begin(), kGripWords.end(), is_held) ? Gauge::grips : Gauge::unknown;
+struct NameAndUnit {
+  std::string name, unit;
+};
+
+/// A unit that may stand without brackets: a number or a sign would be part of a name.
+bool is_bare_unit(std::string_view unit) {
+  return unit != "1" && unit != "-" && unit != "strain" && unit != "ratio" && unit != "count" && unit != "step" &&
+         unit != "steps" && unit != "counts" && is_unit(unit);
 }
 
-std::string bare_unit(std::string_view unit) {
-  std::string bare = plain_words(unit);
-  while (!bare.empty() && (bare.front() == '(' || bare.front() == '[')) bare.erase(bare.begin());
-  while (!bare.empty() && (bare.back() == ')' || bare.back() == ']')) bare.pop_back();
-  return std::string(trimmed(bare));
-}
-
-/// Takes the unit off the end of a heading; empty when there is none.
-std::string take_unit(std::string& name) {
-  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']')}) {
-    if (name.empty() || name.back() != close) continue;
-    const std::size_t begin = name.rfind(open);
-    if (begin == std::string::npos || begin == 0) continue;
-    const std::string unit = bare_unit(std::string_view(name).substr(begin));
-    name = std::string(trimmed(std::string_view(name).substr(0, begin)));
-    return unit;
-  }
-  for (const std::string_view mark : {" in ", "/", " ", ","}) {
-    const std::size_t at = name.rfind(mark);
-    if (at == std::string::npos || at == 0) continue;
-    const std::string unit = bare_unit(std::string_view(name).substr(at + mark.size()));
-    const auto is_unit = [&](const NamedUnit& each) { return each.name == unit; };
-    if (std::none_of(kUnits.begin(), kUnits.end(), is_unit)) continue;
-    name = std::string(trimmed(std::string_view(name).substr(0, at)));
-    return unit;
-  }
-  return "";
-}
-
-/// The unit at the end of a heading as it is written, in its brackets if it has some.
-std::string unit_as_written(std::string_view heading) {
-  heading = trimmed(heading);
-  const bool is_bracketed = heading.ends_with(')') || heading.ends_with(']');
-  // The last byte of a no-break space ends a blank, too; no unit holds it.
-  const std::size_t at =
-      is_bracketed ? heading.rfind(heading.back() == ')' ? '(' : '[') : heading.find_last_of(" \t_/,\xA0");
-  if (at == std::string_view::npos) return std::string(heading);
-  return std::string(heading.substr(is_bracketed ? at : at + 1));
-}
-
-}  // namespace
-
-std::string_view to_string(Quantity quantity) {
-  constexpr std::array<std::string_view, 3> kNames = {"time", "extension", "force"};
-  return kNames[static_cast<std::size_t>(quantity)];
-}
-
-std::string_view expected_names(Quantity quantity) {
-  constexpr std::array<std::string_view, 3> kNames = {
-      "Time, Pruefzeit", "Extension, Displacement, Crosshead, Standardweg", "Force, Load, Standardkraft"};
-  return kNames[static_cast<std::size_t>(quantity)];
-}
-
-std::string_view expected_units(Quantity quantity) {
-  constexpr std::array<std::string_view, 3> kNames = {"s, ms, min, h", "mm, cm, m, um, in, mil, ft",
-                                                      "N, kN, mN, MN, daN, lbf, kip, kgf, gf"};
-  return kNames[static_cast<std::size_t>(quantity)];
-}
-
-std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
-  const std::string bare = bare_unit(unit);
-  // Milli and mega differ in the first letter's case alone.
-  if (quantity == Quantity::force && unit.find("MN") != std::string_view::npos) return 1e6;
-  for (const NamedUnit& each : kUnits) {
-    if (each.quantity == quantity && each.name == bare) return each.factor;
+std::optional<NameAndUnit> unit_in_brackets(const std::string& name) {
+  const std::vector<Bracketed> groups = brackets_of(name);
+  const auto without = [&](const Bracketed& group) {
+    return std::string(trimmed(std::string(trimmed(name.substr(0, group.begin))) + " " +
+                               std::string(trimmed(std::string_view(name).substr(group.end)))));
+  };
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
+    const std::string first(trimmed(group->text.substr(0, group->text.find_first_of(",;"))));
+    for (const std::string& unit : {group->text, first}) {
+      if (group->begin > 0 && is_unit(unit)) return NameAndUnit{without(*group), unit};
+    }
   }
   return std::nullopt;
 }
 
-ColumnName recognise_column(std::string_view heading) {
-  ColumnName column{.heading = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
-  std::string name = plain_words(heading);
-  const bool is_other = std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); });
-  const std::string unit = take_unit(name);
-  if (!unit.empty()) column.unit = unit_as_written(heading);  // its case tells mega from milli
-  if (is_other) return column;
+std::optional<NameAndUnit> unit_at_the_end(const std::string& name) {
+  for (const std::string_view mark : {" in ", " en ", "/", " ", ",", ":", "-"}) {
+    const std::size_t at = name.rfind(mark);
+    if (at == std::string::npos || at == 0) continue;
+    const std::string unit = bare_unit(std::string_view(name).substr(at + mark.size()));
+    if (is_bare_unit(unit)) return NameAndUnit{std::string(trimmed(std::string_view(name).substr(0, at))), unit};
+  }
+  return std::nullopt;
+}
+
+/// `Position mm Run 1`: a unit of two letters and more as a word of its own.
+std::optional<NameAndUnit> unit_between(const std::string& name) {
+  for (const std::string_view unit : {" mm ", " kn ", " lbf ", " cm ", " um ", " kgf ", " sec "}) {
+    const std::size_t at = name.find(unit);
+    if (at == std::string::npos || at == 0) continue;
+    return NameAndUnit{name.substr(0, at) + name.substr(at + unit.size() - 1), std::string(trimmed(unit))};
+  }
+  return std::nullopt;
+}
+
+/// Takes the unit out of a name in plain words; a last bracket that is no known unit is one that nobody knows, unless
+/// it holds a word of headings.
+NameAndUnit unit_apart(const std::string& name) {
+  if (auto found = unit_in_brackets(name)) return *found;
+  if (auto found = unit_at_the_end(name)) return *found;
+  if (auto found = unit_between(name)) return *found;
+  const std::vector<Bracketed> groups = brackets_of(name);
+  constexpr std::size_t kLongestUnit = 12;
+  if (groups.empty() || groups.back().end != name.size() || groups.back().begin == 0) return {name, ""};
+  const std::string& last = groups.back().text;
+  const auto is_known = [&](const NamedQuantity& each) { return holds_word(last, each.word); };
+  if (last.empty() || last.size() > kLongestUnit ||
+      std::any_of(quantity_names().begin(), quantity_names().end(), is_known))
+    return {name, ""};
+  return {std::string(trimmed(std::string_view(name).substr(0, groups.back().begin))), last};
+}
+
+/// A unit as the heading writes it, in its brackets if it has some: its case tells mega from milli.
+std::string as_written(std::string_view heading, const std::string& unit) {
+  std::string lower;
+  for (const char letter : heading) lower += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+  const std::size_t at = lower.rfind(unit);
+  if (at == std::string::npos || unit.empty()) return unit;
+  const bool bracketed = at > 0 && at + unit.size() < heading.size() &&
+                         kBrackets.find(heading[at - 1]) != std::string_view::npos &&
+                         kClosing.find(heading[at + unit.size()]) != std::string_view::npos;
+  return std::string(bracketed ? heading.substr(at - 1, unit.size() + 2) : heading.substr(at, unit.size()));
+}
+
+/// The longest name that a heading holds, then the one with the smallest rank.
+void find_quantity(ColumnName& column) {
   int best = 100;
   std::size_t longest = 0;
-  for (const NamedQuantity& word : kWords) {
+  for (const NamedQuantity& word : quantity_names()) {
     const bool is_short = word.word.size() <= 2;
-    if (is_short ? name != word.word : !holds_word(name, word.word)) continue;
+    if (is_short ? column.name != word.word : !holds_word(column.name, word.word)) continue;
     if (word.word.size() < longest || (word.word.size() == longest && word.rank >= best)) continue;
     longest = word.word.size();
     best = word.rank;
     column.quantity = word.quantity;
     column.rank = word.rank;
   }
-  if (column.quantity == Quantity::extension) column.gauge = gauge_of(name);
-  return column;
 }
 
-std::size_t best_column(const std::vector<ColumnName>& columns, Quantity quantity, std::string_view wanted) {
-  std::size_t best = columns.size();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (!wanted.empty()) {
-      if (holds_word(plain_words(columns[i].heading), plain_words(wanted))) return i;
-      continue;
-    }
-    if (columns[i].quantity == quantity && (best == columns.size() || columns[i].rank < columns[best].rank)) best = i;
+/// Whether another word than that of the quantity decides: a strain or a stress named after a column of extension or
+/// force, `maximum`, `rate`.
+void find_other_meaning(ColumnName& column) {
+  const auto of = [&](Quantity quantity) {
+    return std::any_of(quantity_names().begin(), quantity_names().end(), [&](const NamedQuantity& each) {
+      return each.quantity == quantity && each.word.size() > 3 && holds_word(column.name, each.word);
+    });
+  };
+  if (column.quantity == Quantity::extension && of(Quantity::strain)) column.quantity = Quantity::strain;
+  if (column.quantity && *column.quantity != Quantity::stress && of(Quantity::stress))
+    column.quantity = Quantity::stress;
+  std::string name = column.name;
+  for (const std::string_view harmless : {"change in length", "time at", "test number"}) {
+    if (const std::size_t at = name.find(harmless); at != std::string::npos) name.erase(at, harmless.size());
   }
-  return best;
+  column.is_other = holds_any(name, other_words());
+  if (column.quantity == Quantity::time && column.rank >= 4 && !holds_word(name, "rate")) column.is_other = false;
+}
+
+/// A unit of another quantity corrects the name, or tells the meaning of one letter.
+void correct_by_unit(ColumnName& column, std::string_view unit, bool has_own_row) {
+  constexpr int kByLetter = 7, kByUnit = 8;
+  const auto is_of = [&](Quantity quantity) { return unit_factor(quantity, unit).has_value(); };
+  if (unit.empty()) return;
+  if (is_raw_unit(bare_unit(unit))) {
+    if (column.role == ColumnRole::measured) column.role = ColumnRole::raw;
+    return;
+  }
+  if (!column.quantity) {
+    const bool is_letter = column.name.size() <= 2 && !column.name.empty();
+    const bool starts_with_number = column.name.find_first_of("0123456789+-.,") == 0;
+    const bool is_marked = has_own_row || kBrackets.find(unit.front()) != std::string_view::npos;
+    if (column.is_other || column.name.empty() || starts_with_number || (!is_letter && !is_marked)) return;
+    for (const Quantity quantity : {Quantity::time, Quantity::extension, Quantity::force}) {
+      if (!is_of(quantity)) continue;
+      column.quantity = quantity;
+      column.rank = is_letter ? kByLetter : kByUnit;
+    }
+    return;
+  }
+  if (is_of(*column.quantity)) return;
+  if (column.quantity == Quantity::extension && is_of(Quantity::strain)) column.quantity = Quantity::strain;
+  if (column.quantity == Quantity::force && is_of(Quantity::stress)) column.quantity = Quantity::stress;
+  if (column.quantity == Quantity::stress && is_of(Quantity::force)) column.quantity = Quantity::force;
+  if (column.quantity == Quantity::strain && is_of(Quantity::extension)) column.is_other = true;
+}
+
+void find_role(ColumnName& column) {
+  constexpr int kSlightly = 1;
+  if (column.quantity == Quantity::time) return;
+  if (holds_marker(column.name, lateral_words())) column.role = ColumnRole::lateral;
+  if (holds_marker(column.name, raw_words())) column.role = ColumnRole::raw;
+  if (holds_marker(column.name, set_point_words())) column.role = ColumnRole::set_point;
+  column.rank = 2 * column.rank + (holds_any(column.name, preferred_words()) ? 0 : kSlightly);
+}
+
+Gauge gauge_of(std::string_view name) {
+  if (holds_any(name, kExtensometerWords)) return Gauge::extensometer;
+  return holds_any(name, kGripWords) ? Gauge::grips : Gauge::unknown;
+}
+
+}  // namespace
+
+std::string bare_unit(std::string_view unit) {
+  std::string bare = plain_words(unit);
+  while (!bare.empty() && kBrackets.find(bare.front()) != std::string_view::npos) bare.erase(bare.begin());
+  while (!bare.empty() && kClosing.find(bare.back()) != std::string_view::npos) bare.pop_back();
+  return std::string(trimmed(bare));
+}
+
+std::string_view base_unit(Quantity quantity) {
+  constexpr std::array<std::string_view, kQuantities> kUnits = {"s", "mm", "N", "1", "Pa"};
+  return kUnits[static_cast<std::size_t>(quantity)];
+}
+
+std::string_view expected_names(Quantity quantity) {
+  constexpr std::array<std::string_view, kQuantities> kNames = {
+      "Time, Pruefzeit", "Extension, Displacement, Crosshead, Standardweg", "Force, Load, Standardkraft",
+      "Strain, Dehnung", "Stress, Spannung"};
+  return kNames[static_cast<std::size_t>(quantity)];
+}
+
+std::string_view expected_units(Quantity quantity) {
+  constexpr std::array<std::string_view, kQuantities> kNames = {"s, ms, min, h", "mm, cm, m, um, in, mil, ft",
+                                                                "N, kN, mN, MN, daN, lbf, kip, kgf, gf",
+                                                                "%, mm/mm, ustrain", "MPa, kPa, GPa, Pa, psi, ksi"};
+  return kNames[static_cast<std::size_t>(quantity)];
+}
+
+std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
+  // Milli and mega differ in the first letter's case alone.
+  if (quantity == Quantity::force && unit.find("MN") != std::string_view::npos && bare_unit(unit) == "mn") return 1e6;
+  return named_unit(quantity, bare_unit(unit));
+}
+
+ColumnName recognise_column(std::string_view heading) { return recognise_column(heading, {}); }
+
+ColumnName recognise_column(std::string_view heading, std::string_view unit) {
+  constexpr std::size_t kLongestHeading = 200;  // bytes
+  ColumnName column;
+  column.heading = heading;
+  if (heading.size() > kLongestHeading) return column;
+  const NameAndUnit apart = unit_apart(plain_words(heading));
+  column.name = apart.name;
+  column.unit = as_written(heading, apart.unit);
+  const bool known = !apart.unit.empty() && is_unit(apart.unit);
+  if (!unit.empty() && !known && (apart.unit.empty() || is_unit(bare_unit(unit)))) column.unit = unit;
+  find_quantity(column);
+  find_other_meaning(column);
+  correct_by_unit(column, column.unit, !unit.empty() && column.unit == unit);
+  if (column.is_other) column.quantity.reset();
+  find_role(column);
+  column.is_specimen = std::any_of(specimen_words().begin(), specimen_words().end(), [&](std::string_view word) {
+    return column.name == word || (column.name.ends_with('.') && column.name.substr(0, column.name.size() - 1) == word);
+  });
+  if (column.quantity == Quantity::extension) column.gauge = gauge_of(column.name);
+  return column;
 }
 
 }  // namespace nacre::measurement

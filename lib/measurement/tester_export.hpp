@@ -1,6 +1,7 @@
 #pragma once
-// Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), and plain
-// tables of time, extension and force. They are read by the names of their columns, not by maker.
+// Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), Shimadzu
+// Trapezium, and plain tables of time, extension and force. They are read by the names of their columns, not by maker,
+// in stages: decoded() -> tables_of() -> parts_of() -> a record of each part.
 
 #include <map>
 #include <string>
@@ -8,44 +9,42 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "measurement/column_choice.hpp"
+#include "measurement/import_fault.hpp"
 #include "measurement/tester_columns.hpp"
+#include "measurement/tester_series.hpp"
 
 namespace nacre::measurement {
 
-/// Why a file, or one specimen, is unusable, and where.
-struct ImportFault {
-  std::string file;
-  int line = 0;        ///< 0: the file as a whole
-  std::string column;  ///< heading or column of the sheet; may be empty
-  std::string reason;  ///< a sentence with what was expected
-  bool operator==(const ImportFault&) const = default;
-};
-
-/// `file:line: column: reason`.
-std::string to_string(const ImportFault& fault);
-
-/// One test as the machine recorded it; all vectors as long as `line`, or empty (time only).
+/// One test as the machine recorded it; all vectors as long as `line`, or empty (time; extension and force where the
+/// sheet names strain and stress).
 struct TesterRecord {
-  std::string maker;  ///< "Instron Bluehill", "ZwickRoell testXpert", "MTS", or "table"
+  std::string maker;     ///< "Instron Bluehill", "ZwickRoell testXpert", "MTS", "Shimadzu", or "table"
+  std::string encoding;  ///< of the file
+  char delimiter = ',';
+  char decimal_mark = '.';
+  std::string part;  ///< as the file names it; else its number
   std::vector<double> time_s;
   std::vector<double> extension_mm;
   std::vector<double> force_n;
+  std::vector<double> strain;                 ///< where the sheet names its column
+  std::vector<double> stress_pa;              ///< where the sheet names its column
   std::vector<int> line;                      ///< of the file
   std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file has them
-  std::string extension_column;               ///< heading of the one taken; empty where there is no heading
-  Gauge gauge = Gauge::unknown;               ///< of that column
-  std::vector<std::string> other_extensions;  ///< headings of those that were not taken
+  std::array<std::optional<TakenColumn>, kQuantities> taken;
+  std::vector<std::string> strains;    ///< headings of strains that were not taken
+  std::vector<std::string> decisions;  ///< which columns were taken and why, as sentences
   std::vector<std::string> warnings;
+  bool is_bare = false;              ///< the file has no heading
+  std::optional<ImportFault> fault;  ///< why this part of the file cannot be used
+
+  const std::optional<TakenColumn>& column(Quantity quantity) const {
+    return taken[static_cast<std::size_t>(quantity)];
+  }
 };
 
-/// Which columns to take, by words of their headings, where a file has several of a kind; empty: the usual ones.
-struct ColumnChoice {
-  std::string extension;
-  std::string force;
-};
-
-/// Reads all tests of an export: each heading row begins one, but the blocks of an MTS 793 file are parts of the same
-/// test. `bytes` as on disk, `file` for messages. Errors name line, column and what was expected.
+/// Reads all tests of an export. `bytes` as on disk, `file` for messages. Errors name line, column and what was
+/// expected; of a file with several parts, the fault of one stays with it.
 tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::string_view bytes, const std::string& file,
                                                                         const ColumnChoice& choice = {});
 

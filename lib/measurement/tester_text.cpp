@@ -2,86 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
+#include <optional>
 
 #include "base/csv.hpp"
 
 namespace nacre::measurement {
 namespace {
-
-void append_utf8(std::string& text, std::uint32_t point) {
-  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-  if (point < 0x80) {
-    put(point);
-  } else if (point < 0x800) {
-    put(0xC0 | point >> 6);
-    put(0x80 | (point & 0x3F));
-  } else if (point < 0x10000) {
-    put(0xE0 | point >> 12);
-    put(0x80 | (point >> 6 & 0x3F));
-    put(0x80 | (point & 0x3F));
-  } else {
-    put(0xF0 | point >> 18);
-    put(0x80 | (point >> 12 & 0x3F));
-    put(0x80 | (point >> 6 & 0x3F));
-    put(0x80 | (point & 0x3F));
-  }
-}
-
-constexpr std::uint32_t kReplacementCharacter = 0xFFFD;
-
-Result<std::string> from_utf16(std::string_view bytes, bool low_byte_first) {
-  if (bytes.size() % 2 != 0) return fail("UTF-16 text with half a character at its end, expected a whole file");
-  const auto unit_at = [&](std::size_t i) {
-    const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
-    return static_cast<std::uint32_t>(low_byte_first ? a | b << 8 : b | a << 8);
-  };
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    const std::uint32_t unit = unit_at(i);
-    const bool is_surrogate = unit >= 0xD800 && unit < 0xE000;
-    const std::uint32_t low = is_surrogate && i + 3 < bytes.size() ? unit_at(i + 2) : 0;
-    if (unit < 0xDC00 && low >= 0xDC00 && low < 0xE000) {
-      append_utf8(text, 0x10000 + ((unit - 0xD800) << 10) + (low - 0xDC00));
-      i += 2;
-    } else {
-      append_utf8(text, is_surrogate ? kReplacementCharacter : unit);  // half a pair has no meaning
-    }
-  }
-  return text;
-}
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
-
-/// Windows-1252; its few signs between 0x80 and 0x9F, which no name or unit holds, become a question mark.
-std::string from_windows_1252(std::string_view bytes) {
-  std::string text;
-  for (const char byte : bytes) {
-    const auto value = static_cast<unsigned char>(byte);
-    append_utf8(text, value >= 0x80 && value < 0xA0 ? '?' : value);
-  }
-  return text;
-}
-
-/// UTF-16 without a mark: Latin text has a zero in every other byte.
-std::optional<bool> unmarked_utf16(std::string_view bytes) {
-  std::array<std::size_t, 2> zeros{};
-  const std::size_t looked_at = std::min<std::size_t>(bytes.size(), 400) & ~std::size_t{1};
-  for (std::size_t i = 0; i < looked_at; ++i) zeros[i % 2] += bytes[i] == '\0';
-  if (looked_at < 8) return std::nullopt;
-  if (zeros[1] * 2 > looked_at * 8 / 10 && zeros[0] == 0) return true;
-  if (zeros[0] * 2 > looked_at * 8 / 10 && zeros[1] == 0) return false;
-  return std::nullopt;
-}
 
 /// Where the quoted cell whose text begins at `begin` is closed; nothing when it never is, or when more of a cell
 /// follows: then another cell's quote was met.
@@ -116,54 +42,7 @@ TextRow first_row(std::string_view text, char delimiter) {
   return {.line = 0, .text = text};
 }
 
-constexpr std::string_view kNoBreakSpace = "\xC2\xA0", kNarrowNoBreakSpace = "\xE2\x80\xAF";
-
-/// `text` with each no-break space as a blank, and none around it.
-std::string with_plain_blanks(std::string_view text) {
-  std::string plain;
-  while (!text.empty()) {
-    const std::size_t blank = text.starts_with(kNoBreakSpace)         ? kNoBreakSpace.size()
-                              : text.starts_with(kNarrowNoBreakSpace) ? kNarrowNoBreakSpace.size()
-                                                                      : 0;
-    plain += blank > 0 ? ' ' : text.front();
-    text.remove_prefix(std::max<std::size_t>(blank, 1));
-  }
-  return std::string(trimmed(plain));
-}
-
-bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-
-/// Digits in groups of three: `1,234` or `12.345.678` with `mark` between them.
-bool is_grouped(std::string_view number, char mark) {
-  number = number.substr(0, number.find_first_of("eE"));
-  while (!number.empty() && (number.front() == '-' || number.front() == '+')) number.remove_prefix(1);
-  std::size_t group = 0;
-  bool first = true;
-  for (std::size_t i = 0; i <= number.size(); ++i) {
-    if (i < number.size() && is_digit(number[i])) {
-      ++group;
-      continue;
-    }
-    if (i < number.size() && number[i] != mark) return false;
-    if (first ? group < 1 || group > 3 : group != 3) return false;
-    first = false;
-    group = 0;
-  }
-  return number.front() != '0';
-}
-
 }  // namespace
-
-Result<std::string> utf8_from_instrument(std::string_view bytes) {
-  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0"))
-    return fail("is a workbook, expected a text file: export or save it as CSV");
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), true);
-  if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), false);
-  if (const auto low_byte_first = unmarked_utf16(bytes)) return from_utf16(bytes, *low_byte_first);
-  if (bytes.find('\0') != std::string_view::npos) return fail("holds zero bytes, expected a text file");
-  return is_utf8(bytes) ? std::string(bytes) : from_windows_1252(bytes);
-}
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -217,77 +96,163 @@ std::vector<std::string> cells_of(std::string_view line, char delimiter) {
   return cells;
 }
 
+void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+  cells.clear();
+  while (true) {
+    std::size_t end = std::min(line.find(delimiter), line.size());
+    std::string_view cell = trimmed(line.substr(0, end));
+    if (cell.starts_with('"')) {
+      const std::size_t open = line.find('"');
+      std::size_t close = line.find('"', open + 1);
+      while (close != std::string_view::npos && close + 1 < line.size() && line[close + 1] == '"')
+        close = line.find('"', close + 2);
+      if (close != std::string_view::npos) {
+        end = std::min(line.find(delimiter, close), line.size());
+        cell = trimmed(line.substr(open + 1, close - open - 1));
+      }
+    }
+    cells.push_back(cell);
+    if (end >= line.size()) return;
+    line.remove_prefix(end + 1);
+  }
+}
+
+namespace {
+
+/// One character of UTF-8, and the plain letters that stand for it in names.
+struct Spelling {
+  std::string_view character, plain;
+};
+
+constexpr std::array kSpellings = {
+    Spelling{"ä", "ae"},
+    Spelling{"ö", "oe"},
+    Spelling{"ü", "ue"},
+    Spelling{"Ä", "ae"},
+    Spelling{"Ö", "oe"},
+    Spelling{"Ü", "ue"},
+    Spelling{"ß", "ss"},
+    Spelling{"é", "e"},
+    Spelling{"è", "e"},
+    Spelling{"ê", "e"},
+    Spelling{"ë", "e"},
+    Spelling{"É", "e"},
+    Spelling{"È", "e"},
+    Spelling{"à", "a"},
+    Spelling{"â", "a"},
+    Spelling{"á", "a"},
+    Spelling{"À", "a"},
+    Spelling{"Á", "a"},
+    Spelling{"ã", "a"},
+    Spelling{"å", "a"},
+    Spelling{"ç", "c"},
+    Spelling{"Ç", "c"},
+    Spelling{"í", "i"},
+    Spelling{"ì", "i"},
+    Spelling{"î", "i"},
+    Spelling{"ï", "i"},
+    Spelling{"Í", "i"},
+    Spelling{"ó", "o"},
+    Spelling{"ò", "o"},
+    Spelling{"ô", "o"},
+    Spelling{"õ", "o"},
+    Spelling{"Ó", "o"},
+    Spelling{"ø", "o"},
+    Spelling{"ú", "u"},
+    Spelling{"ù", "u"},
+    Spelling{"û", "u"},
+    Spelling{"Ú", "u"},
+    Spelling{"ñ", "n"},
+    Spelling{"Ñ", "n"},
+    Spelling{"µ", "u"},
+    Spelling{"μ", "u"},
+    Spelling{"²", "2"},
+    Spelling{"³", "3"},
+    Spelling{"Δ", "d"},
+    Spelling{"∆", "d"},
+    Spelling{"₂", ""},
+    Spelling{"°", ""},
+    Spelling{"ε", "strain"},
+    Spelling{"σ", "stress"},
+    Spelling{"​", ""},
+    Spelling{"\xC2\xA0", " "},
+    Spelling{"\xE2\x80\xAF", " "},
+    Spelling{"\xE2\x80\x89", " "},
+    Spelling{"\xE3\x80\x80", " "},
+    Spelling{"【", "["},
+    Spelling{"】", "]"},
+    Spelling{"〔", "["},
+    Spelling{"〕", "]"},
+    Spelling{"［", "["},
+    Spelling{"］", "]"},
+    Spelling{"｛", "["},
+    Spelling{"｝", "]"},
+    Spelling{"「", "["},
+    Spelling{"」", "]"},
+    Spelling{"『", "["},
+    Spelling{"』", "]"},
+    Spelling{"〈", "["},
+    Spelling{"〉", "]"},
+    Spelling{"《", "["},
+    Spelling{"》", "]"},
+    Spelling{"∕", "/"},
+    Spelling{"⁄", "/"},
+    Spelling{"−", "-"},
+    Spelling{"–", "-"},
+    Spelling{"‰", "permille"},
+    Spelling{"㎜", "mm"},
+    Spelling{"㎝", "cm"},
+    Spelling{"㎛", "um"},
+    Spelling{"㎳", "ms"},
+    Spelling{"㎏", "kg"},
+    Spelling{"㎫", "mpa"},
+    Spelling{"㎪", "kpa"},
+    Spelling{"㎬", "gpa"},
+    Spelling{"％", "%"},
+    Spelling{"·", " "},
+};
+
+/// Full-width ASCII (U+FF01 to U+FF5E), or nothing.
+std::optional<char> full_width(std::string_view text) {
+  if (text.size() < 3 || static_cast<unsigned char>(text[0]) != 0xEF) return std::nullopt;
+  const auto lead = static_cast<unsigned char>(text[1]), trail = static_cast<unsigned char>(text[2]);
+  if (lead == 0xBC && trail >= 0x81) return static_cast<char>(trail - 0x81 + '!');
+  if (lead == 0xBD && trail <= 0x9E) return static_cast<char>(trail - 0x80 + '`');
+  return std::nullopt;
+}
+
+/// Replaces the first character of `text` by plain letters at the end of `plain`.
+void spell_out(std::string_view& text, std::string& plain) {
+  const auto known = std::find_if(kSpellings.begin(), kSpellings.end(),
+                                  [&](const auto& each) { return text.starts_with(each.character); });
+  if (known != kSpellings.end()) {
+    if (known->plain != " " || (!plain.empty() && plain.back() != ' ')) plain += known->plain;
+    text.remove_prefix(known->character.size());
+  } else if (const auto letter = full_width(text)) {
+    plain += *letter >= 'A' && *letter <= 'Z' ? static_cast<char>(*letter - 'A' + 'a') : *letter;
+    text.remove_prefix(3);
+  } else {
+    plain += text.front();
+    text.remove_prefix(1);
+  }
+}
+
+}  // namespace
+
 std::string plain_words(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kSpelt = {{
-      {"\xC3\xA4", "ae"},         {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"},   {"\xC3\x84", "ae"}, {"\xC3\x96", "oe"},
-      {"\xC3\x9C", "ue"},         {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},    {"\xC3\xA8", "e"},  {"\xC3\xAA", "e"},
-      {"\xC3\x89", "e"},          {"\xC3\xA0", "a"},  {"\xC3\xA2", "a"},    {"\xC3\xA1", "a"},  {"\xC3\xA7", "c"},
-      {"\xC3\xAD", "i"},          {"\xC3\xAE", "i"},  {"\xC3\xB3", "o"},    {"\xC3\xB4", "o"},  {"\xC3\xBA", "u"},
-      {"\xC3\xBB", "u"},          {"\xC3\xB1", "n"},  {"\xC2\xB5", "u"},    {"\xCE\xBC", "u"},  {kNoBreakSpace, " "},
-      {"\xC2\xB2", "2"},          {"\xCE\x94", "d"},  {"\xE2\x82\x82", ""}, {"\xC2\xB0", ""},   {"\xCE\xB5", "strain"},
-      {kNarrowNoBreakSpace, " "},
-  }};
   std::string plain;
   while (!text.empty()) {
-    const auto known =
-        std::find_if(kSpelt.begin(), kSpelt.end(), [&](const auto& each) { return text.starts_with(each.first); });
-    if (known != kSpelt.end()) {
-      plain += known->second;
-      text.remove_prefix(known->first.size());
+    const char letter = text.front();
+    if (static_cast<unsigned char>(letter) >= 0x80) {
+      spell_out(text, plain);
       continue;
     }
-    const char letter = text.front();
-    const bool is_blank = letter == ' ' || letter == '\t' || letter == '_';
+    const bool is_blank = letter == ' ' || letter == '\t' || letter == '_' || letter == '\r' || letter == '\n';
     if (!is_blank || (!plain.empty() && plain.back() != ' '))
       plain += is_blank ? ' ' : letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
     text.remove_prefix(1);
   }
   return std::string(trimmed(plain));
-}
-
-bool looks_like_number(std::string_view text) {
-  return instrument_number(text, DecimalMark::point) || instrument_number(text, DecimalMark::comma);
-}
-
-std::optional<DecimalMark> decimal_evidence(std::string_view text) {
-  text = trimmed(text);
-  if (!looks_like_number(text)) return std::nullopt;
-  const std::size_t comma = text.rfind(','), point = text.rfind('.');
-  if (comma != std::string_view::npos && point != std::string_view::npos)
-    return comma > point ? DecimalMark::comma : DecimalMark::point;
-  if (comma != std::string_view::npos && !is_grouped(text, ',')) return DecimalMark::comma;
-  if (point != std::string_view::npos && !is_grouped(text, '.')) return DecimalMark::point;
-  return std::nullopt;
-}
-
-std::optional<double> instrument_number(std::string_view text, DecimalMark mark) {
-  const char decimal = mark == DecimalMark::point ? '.' : ',', grouping = mark == DecimalMark::point ? ',' : '.';
-  std::string digits;
-  bool seen_decimal = false;
-  std::string number = with_plain_blanks(text);
-  const std::size_t whole_size =
-      std::min(number.find_first_of(mark == DecimalMark::point ? ".eE" : ",eE"), number.size());
-  const std::string_view whole = std::string_view(number).substr(0, whole_size);
-  for (const char group : {grouping, ' '}) {
-    if (whole.find(group) != std::string_view::npos && !is_grouped(whole, group)) return std::nullopt;
-  }
-  number.erase(std::remove(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(whole_size), ' '),
-               number.begin() + static_cast<std::ptrdiff_t>(whole_size));
-  for (const char letter : number) {
-    if (letter == grouping && seen_decimal) return std::nullopt;
-    if (letter == grouping || letter == '\'') continue;
-    if (letter == decimal) {
-      if (seen_decimal) return std::nullopt;
-      seen_decimal = true;
-    }
-    digits += letter == decimal ? '.' : letter;
-  }
-  const std::string_view unsigned_digits = std::string_view(digits).substr(digits.starts_with('+') ? 1 : 0);
-  double value = 0.0;
-  const auto [end, error] =
-      std::from_chars(unsigned_digits.data(), unsigned_digits.data() + unsigned_digits.size(), value);
-  const bool is_whole = error == std::errc{} && end == unsigned_digits.data() + unsigned_digits.size();
-  return is_whole && !unsigned_digits.empty() && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace nacre::measurement

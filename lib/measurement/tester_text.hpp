@@ -1,19 +1,12 @@
 #pragma once
 // Text of instruments in one encoding, cut into lines and cells.
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/result.hpp"
-
 namespace nacre::measurement {
-
-/// Bytes of a text file as UTF-8 without byte-order mark: UTF-8, UTF-16 of either byte order (marked, or recognised by
-/// its zero bytes), otherwise Windows-1252, which makers' programs write in western Europe. Error: the file is not text
-/// (a workbook, a picture, a cut UTF-16 character), with what was expected.
-Result<std::string> utf8_from_instrument(std::string_view bytes);
 
 /// Lines without their ends (LF, CRLF or CR).
 std::vector<std::string_view> lines_of(std::string_view text);
@@ -21,6 +14,9 @@ std::vector<std::string_view> lines_of(std::string_view text);
 /// Cells of one line, blanks around them removed; a cell in double quotes may hold the delimiter. More lenient than
 /// RFC 4180: header blocks of testing machines hold any text.
 std::vector<std::string> cells_of(std::string_view line, char delimiter);
+
+/// The same without copies, into `cells`, for long tables: a doubled quote inside a quoted cell stays doubled.
+void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
 
 /// One row of a table and the line on which it begins, from 1.
 struct TextRow {
@@ -33,21 +29,8 @@ struct TextRow {
 /// other row with it.
 std::vector<TextRow> rows_of(std::string_view text, char delimiter);
 
-/// ASCII lower case with the letters of western European languages spelt out (ue for u umlaut, e for e acute) and
-/// blanks in one place made one: for comparing names.
+/// ASCII lower case with the letters of western European languages spelt out (ue for u umlaut, e for e acute),
+/// full-width letters and brackets made plain, and blanks in one place made one: for comparing names.
 std::string plain_words(std::string_view text);
-
-/// Which mark separates the decimals of a file.
-enum class DecimalMark { point, comma };
-
-/// Reads a number as an instrument writes it; the other mark, a blank (a no-break space, too) or an apostrophe
-/// may group thousands.
-std::optional<double> instrument_number(std::string_view text, DecimalMark mark);
-
-/// The decimal mark that a single cell implies: `1,5` comma, `1.5` point, `1,234` or `12` none.
-std::optional<DecimalMark> decimal_evidence(std::string_view text);
-
-/// Whether the cell looks like a number under either mark.
-bool looks_like_number(std::string_view text);
 
 }  // namespace nacre::measurement

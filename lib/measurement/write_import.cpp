@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "measurement/provenance.hpp"
 #include "measurement/read_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
@@ -67,11 +68,14 @@ void write_import(const std::filesystem::path& folder, const std::string& sheet,
   if (std::filesystem::exists(folder / kTableName, unreadable)) {
     const std::vector<SpecimenRecord> added = settle(folder, sheet, import, replace);
     if (!added.empty()) add_to_measurement_set(folder, added);
+    if (!import.specimens.empty()) write_provenance(folder, import.specimens);
     return;
   }
   std::vector<SpecimenRecord> records;
   for (const ImportedSpecimen& one : import.specimens) records.push_back(one.record);
-  if (!records.empty()) write_measurement_set(folder, records);
+  if (records.empty()) return;
+  write_measurement_set(folder, records);
+  write_provenance(folder, import.specimens);
 }
 
 }  // namespace nacre::measurement

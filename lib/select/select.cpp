@@ -88,10 +88,10 @@ std::string list_in_words(const std::vector<int>& numbers) {
 std::string part_in_words(int bin, int count) {
   if (count == 1) return "";
   const bool first = bin == 0, last = bin + 1 == count;
-  if (count == 2) return first ? " in the least stiff half" : " in the stiffest half";
+  if (count == 2) return first ? ", in the least stiff half" : ", in the stiffest half";
   if (first || last)
-    return fmt::format(" in the {} of {} parts of the front", first ? "least stiff" : "stiffest", count);
-  return fmt::format(" in part {} of {} of the front, counted from the least stiff", bin + 1, count);
+    return fmt::format(", in the {} of {} parts of the front", first ? "least stiff" : "stiffest", count);
+  return fmt::format(", in part {} of {} of the front (part 1 is the least stiff)", bin + 1, count);
 }
 
 /// Why a design fills up, as a clause: which parts of the front hold no candidate.
@@ -152,7 +152,7 @@ std::vector<Selected> select_apart(std::span<const explore::Evaluated> gamut,
     }
     const std::string place = choice.bin >= 0 ? part_in_words(choice.bin, settings.count) : empty_parts;
     selected.push_back({pattern, performance,
-                        fmt::format("one of the toughest predicted for its stiffness{}; {}", place,
+                        fmt::format("near the best predicted toughness for its stiffness{}; {}", place,
                                     difference_in_words(pattern, measured, others)),
                         choice.bin});
   }

@@ -22,6 +22,19 @@ Provenance provenance_of(const Calibrated& calibrated, std::string_view search) 
           .estimates = calibrated.estimates};
 }
 
+namespace {
+
+constexpr double kAtEnd = 1e-6;  // of the range, in the coordinate of the fit: values went through logarithms
+
+/// Whether there were measurements that a parameter was fitted to. The elastic moduli follow moduli, whatever a test of
+/// fracture has of its own.
+bool was_fitted(const Calibrated& calibrated, const ParameterEstimate& estimate) {
+  const bool elastic = estimate.name.starts_with("modulus.");
+  return (elastic ? calibrated.after.modulus_count : calibrated.after.toughness_count) > 0;
+}
+
+}  // namespace
+
 std::vector<ParameterEstimate> at_an_end(const Calibrated& calibrated, const material::ParameterRanges& ranges,
                                          material::FitTarget target) {
   std::vector<material::ParameterRange> all;
@@ -30,7 +43,8 @@ std::vector<ParameterEstimate> at_an_end(const Calibrated& calibrated, const mat
   std::vector<ParameterEstimate> determined, others;
   for (std::size_t i = 0; i < std::min(all.size(), calibrated.estimates.size()); ++i) {
     const ParameterEstimate& each = calibrated.estimates[i];
-    if (each.value != all[i].minimum && each.value != all[i].maximum) continue;
+    const double unit = material::to_unit(all[i], each.value);
+    if (!was_fitted(calibrated, each) || std::min(unit, 1.0 - unit) > kAtEnd) continue;
     (each.determined ? determined : others).push_back(each);
   }
   std::ranges::copy(others, std::back_inserter(determined));

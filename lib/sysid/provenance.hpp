@@ -25,8 +25,9 @@ struct Provenance {
 
 Provenance provenance_of(const Calibrated& calibrated, std::string_view search);
 
-/// The parameters that are exactly at a bound of their range, those that the data determine first: the data would have
-/// them go further, and they may push the others aside.
+/// The fitted parameters that are at a bound of their range, to a millionth of it in the coordinate of the fit, those
+/// that the data determine first: the data would have them go further, and they may push the others aside. Elastic
+/// moduli count as fitted where there are moduli, parameters of fracture where there is toughness.
 std::vector<ParameterEstimate> at_an_end(const Calibrated& calibrated, const material::ParameterRanges& ranges,
                                          material::FitTarget target);
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/names.hpp"
 #include "command.hpp"
@@ -24,6 +25,7 @@ struct Options {
   std::string token;
   std::string families;
   std::string page;
+  std::vector<std::string> allowed_hosts;
 };
 
 /// Whether only this machine reaches the address.
@@ -48,7 +50,8 @@ int show_dashboard(const Options& options) {
   const RunAccess run = open_run(options.run);
   RunDesk desk(run);
   dashboard::Dashboard page(settings_of(run, options), desk);
-  dashboard::ServerSettings server{.host = options.host, .port = options.port, .token = options.token};
+  dashboard::ServerSettings server{
+      .host = options.host, .port = options.port, .token = options.token, .further_hosts = options.allowed_hosts};
   if (server.token.empty() && !is_loopback(options.host)) server.token = dashboard::random_token();
   const runtime::Interrupts interrupts;
   const auto ready = [&](int port) {
@@ -79,6 +82,8 @@ void add_dashboard(CLI::App& app, Action& action) {
         const bool plain = token.size() >= 16 && is_plain_name(token, 256);
         return plain ? std::string() : std::string("expected 16 to 256 letters, digits, - and _");
       });
+  command.add_option("--allow-host", options->allowed_hosts,
+                     "Name under which a tunnel or a proxy shows the page, NAME or NAME:PORT; may be repeated");
   command.add_option("--families", options->families,
                      "Folder of `nacre families` for the map explorer; default: RUN/families");
   command.add_option("--page", options->page, "Folder of the built page; default: build/web");

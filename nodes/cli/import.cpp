@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "base/counted.hpp"
+#include "base/files.hpp"
 #include "command.hpp"
+#include "measurement/export_list.hpp"
+#include "measurement/set_files.hpp"
 #include "measurement/write_import.hpp"
 #include "output.hpp"
+#include "report/import_preview.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -19,6 +23,8 @@ struct Options {
   std::string sheet;
   std::string out;
   std::string toe = "compensate";
+  std::string preview;
+  bool list = false;
   bool replace = false;
   bool json = false;
 };
@@ -31,13 +37,17 @@ nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
           {"pattern", record.design.name()},
           {"test", std::string(tester::to_string(record.test))},
           {"modulus_pa", one.test.modulus_pa},
+          {"modulus_error_pa", one.test.modulus_error_pa},
           {"toughness_pa", one.test.toughness_pa},
           {"peak_stress_pa", one.test.peak_stress_pa},
           {"failure_strain", one.test.failure_strain},
           {"toe_strain", one.test.toe_strain},
           {"extension_column", one.extension_column},
+          {"columns", one.provenance},
+          {"decisions", one.decisions},
           {"gauge_mm", one.gauge_mm},
           {"strain_rate_per_s", record.conditions.strain_rate_per_s},
+          {"rate_source", one.rate_source},
           {"separated", one.test.separated},
           {"points", one.test.curve.size()},
           {"valid", record.valid},
@@ -57,6 +67,7 @@ void print_import(const measurement::Import& import, const Options& options) {
                  one.record.specimen, one.maker, shown(1e-9 * one.test.modulus_pa), shown(1e-6 * one.test.toughness_pa),
                  1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
                  one.record.valid ? "" : "  NOT VALID");
+      for (const std::string& decision : one.decisions) fmt::print("    {}\n", decision);
     }
     fmt::print("{}{}{}, {} rejected: {}\n", counted(static_cast<std::int64_t>(import.specimens.size()), "specimen"),
                import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
@@ -75,12 +86,76 @@ void print_import(const measurement::Import& import, const Options& options) {
               {"warnings", import.warnings}});
 }
 
+void print_part(const measurement::ListedPart& part) {
+  fmt::print("  part {}: {} rows below line {}\n", part.name, part.rows, part.line);
+  for (const auto& column : part.columns) {
+    fmt::print("    {} {:9} {:32} {:8} {:>12} {:>12}  {}\n", column.taken ? '*' : ' ', column.quantity, column.heading,
+               column.unit, column.sparkline.empty() ? "" : fmt::format("{:.5g}", column.least),
+               column.sparkline.empty() ? "" : fmt::format("{:.5g}", column.most), column.sparkline);
+  }
+  for (const std::string& decision : part.decisions) fmt::print("    {}\n", decision);
+  if (!part.fault.empty()) fmt::print("    refused as it stands: {}\n", part.fault);
+}
+
+nlohmann::ordered_json to_json(const measurement::ListedPart& part) {
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (const auto& column : part.columns) {
+    columns.push_back({{"heading", column.heading},
+                       {"unit", column.unit},
+                       {"quantity", column.quantity},
+                       {"taken", column.taken},
+                       {"least", column.least},
+                       {"most", column.most}});
+  }
+  return {{"part", part.name},  {"line", part.line},           {"rows", part.rows},
+          {"columns", columns}, {"decisions", part.decisions}, {"fault", part.fault}};
+}
+
+/// What the files hold; 1 where one of them holds nothing.
+int list_exports(const Options& options) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  bool all_read = true;
+  for (const std::string& file : options.files) {
+    const auto held = measurement::list_export(read_file_up_to(file, measurement::kMostCurveBytes), file);
+    all_read = all_read && held.has_value();
+    if (!held) {
+      warn(to_string(held.error()));
+      continue;
+    }
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (const auto& part : held->parts) parts.push_back(to_json(part));
+    files.push_back({{"file", file},
+                     {"maker", held->maker},
+                     {"encoding", held->encoding},
+                     {"parts", parts},
+                     {"notes", held->notes}});
+    if (options.json) continue;
+    fmt::print("{}: {}, {}, {}\n", file, held->maker, held->encoding, held->delimiter);
+    for (const auto& part : held->parts) print_part(part);
+    for (const std::string& note : held->notes) fmt::print("  {}\n", note);
+  }
+  if (options.json) print_json({{"files", files}});
+  return all_read ? 0 : 1;
+}
+
 int import_exports(const Options& options) {
+  if (options.list) {
+    if (options.files.empty()) throw InputError("--list: expected one file or more");
+    return list_exports(options);
+  }
+  if (options.sheet.empty()) throw InputError("--specimens is missing, expected the sheet (or --list FILE)");
+  if (options.out.empty() && options.preview.empty())
+    throw InputError("--out is missing, expected the folder of the measurement set (or --preview PAGE.html)");
   const measurement::ImportSettings settings{.toe = options.toe == "keep" ? measurement::Toe::keep
                                                                           : measurement::Toe::compensate};
   measurement::Import import = measurement::import_exports(
       std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
-  measurement::write_import(options.out, options.sheet, import, options.replace);
+  if (!options.preview.empty()) {
+    write_file_atomically(options.preview, report::import_preview(import, options.sheet));
+    remark(fmt::format("{}: nothing is in a set yet; import again without --preview to keep it", options.preview));
+  } else {
+    measurement::write_import(options.out, options.sheet, import, options.replace);
+  }
   for (const std::string& warning : import.warnings) warn(warning);
   for (const auto& fault : import.rejected) warn(to_string(fault));
   if (import.specimens.empty()) {
@@ -103,10 +178,11 @@ void add_import(CLI::App& app, Action& action) {
   command
       .add_option("--specimens", options->sheet,
                   "Specimen sheet: which file is which specimen, and its width and thickness")
-      ->required()
       ->check(CLI::ExistingFile);
-  command.add_option("--out", options->out, "Folder of the measurement set; specimens are added to one that exists")
-      ->required();
+  command.add_option("--out", options->out, "Folder of the measurement set; specimens are added to one that exists");
+  command.add_flag("--list", options->list,
+                   "Show what the files hold: parts, columns, units, ranges; nothing is imported");
+  command.add_option("--preview", options->preview, "Write this HTML page of what would be imported, and no set");
   command.add_flag("--replace", options->replace,
                    "Replace specimens that the set holds with other values; whether they are valid stays");
   command.add_option("--toe", options->toe, "Flat beginning of the curves: compensate (ASTM D638 A1) or keep")

@@ -171,6 +171,10 @@ ReviewMaterial material_to_review(const Options& options) {
   return material;
 }
 
+nlohmann::ordered_json or_null(std::optional<double> value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json to_json(const ReplicateGroup& group) {
   nlohmann::ordered_json proposed = nlohmann::ordered_json::array();
   for (const auto& outlier : group.proposed) {
@@ -189,10 +193,10 @@ nlohmann::ordered_json to_json(const ReplicateGroup& group) {
           {"valid", group.valid},
           {"proposed_outliers", proposed},
           {"wanted", group.wanted},
-          {"mean_pa", group.mean_pa},
-          {"scatter", group.scatter},
-          {"mean_without_pa", group.mean_without_pa},
-          {"scatter_without", group.scatter_without},
+          {"mean_pa", or_null(group.mean_pa)},
+          {"scatter", or_null(group.scatter)},
+          {"mean_without_pa", or_null(group.mean_without_pa)},
+          {"scatter_without", or_null(group.scatter_without)},
           {"representative", group.representative}};
 }
 
@@ -201,6 +205,13 @@ std::string unusual_conditions(const tester::TestConditions& conditions) {
   const std::string turned = conditions.orientation_deg == 90.0 ? " turned" : "";
   if (measurement::is_standard(conditions)) return turned;
   return fmt::format("{} at {:.3g} /s, {:.3g} mm thick", turned, conditions.strain_rate_per_s, conditions.thickness_mm);
+}
+
+/// `-` where no specimen counts; no scatter of a single one.
+std::string mean_and_scatter(std::optional<double> mean_pa, std::optional<double> scatter, bool is_modulus) {
+  if (!mean_pa) return "-";
+  return fmt::format("{} {}{}", shown(*mean_pa * (is_modulus ? 1e-9 : 1e-6)), is_modulus ? "GPa" : "MPa",
+                     scatter ? fmt::format(" +- {:.1f} %", 100.0 * *scatter) : "");
 }
 
 std::string_view in_words(measurement::GroupState state) {
@@ -217,20 +228,18 @@ std::string_view in_words(measurement::GroupState state) {
 
 void print_group(const ReplicateGroup& group) {
   const bool is_modulus = group.test == tester::TestKind::modulus;
-  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {} {} +- {:.1f} %{}\n", group.design.name(),
-             tester::to_string(group.test), unusual_conditions(group.conditions), in_words(group.state),
-             group.tested.size(), group.valid.size(),
+  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {}{}\n", group.design.name(), tester::to_string(group.test),
+             unusual_conditions(group.conditions), in_words(group.state), group.tested.size(), group.valid.size(),
              group.wanted > 0 ? fmt::format(", {} more to be tested", group.wanted) : "", is_modulus ? "E" : "T",
-             shown(group.mean_pa * (is_modulus ? 1e-9 : 1e-6)), is_modulus ? "GPa" : "MPa", 100.0 * group.scatter,
+             mean_and_scatter(group.mean_pa, group.scatter, is_modulus),
              group.representative.empty() ? "" : fmt::format("  most typical: {}", group.representative));
   for (const auto& outlier : group.proposed) {
     for (const auto& reason : outlier.reasons)
       fmt::print("    {} looks out of line: {}\n", outlier.specimen, reason.text);
   }
   if (!group.proposed.empty()) {
-    fmt::print("    without {}: {} {} +- {:.1f} %\n", group.proposed.size() == 1 ? "it" : "them",
-               shown(group.mean_without_pa * (is_modulus ? 1e-9 : 1e-6)), is_modulus ? "GPa" : "MPa",
-               100.0 * group.scatter_without);
+    fmt::print("    without {}: {}\n", group.proposed.size() == 1 ? "it" : "them",
+               mean_and_scatter(group.mean_without_pa, group.scatter_without, is_modulus));
   }
 }
 

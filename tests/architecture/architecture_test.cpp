@@ -29,14 +29,17 @@ std::vector<std::string> includes_of(const fs::path& file) {
   return includes;
 }
 
-/// Module -> rank, in the order of NACRE_MODULES.
+/// Module -> rank, in the order of the five storeys.
 std::map<std::string, int> module_ranks() {
-  const std::string text = read_file(kRoot / "cmake/NacreModules.cmake");
-  std::smatch match;
-  EXPECT_TRUE(std::regex_search(text, match, std::regex(R"(set\(NACRE_MODULES([^)]*)\))")));
-  std::istringstream words(match[1]);
+  const std::string text = text_of("cmake/NacreModules.cmake");
   std::map<std::string, int> ranks;
-  for (std::string word; words >> word;) ranks.emplace(word, static_cast<int>(ranks.size()));
+  for (const char* storey : {"GROUND", "PHYSICS", "KNOWLEDGE", "GAME", "WORLD"}) {
+    std::smatch match;
+    const std::regex list(std::string("set\\(NACRE_") + storey + R"(([^)]*)\))");
+    EXPECT_TRUE(std::regex_search(text, match, list)) << storey;
+    std::istringstream words(match[1]);
+    for (std::string word; words >> word;) ranks.emplace(word, static_cast<int>(ranks.size()));
+  }
   return ranks;
 }
 

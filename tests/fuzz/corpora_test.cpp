@@ -33,11 +33,18 @@ struct Target {
 #define ENTRY(name) {#name, fuzz_##name},
 const std::vector<Target> kTargets = {NACRE_FUZZ_TARGETS(ENTRY)};
 
+/// Layouts of makers, which are seeds, too.
+const fs::path kExports = fs::path(NACRE_SOURCE_DIR) / "tests" / "unit" / "measurement" / "data" / "exports";
 const fs::path kCorpora = fs::path(NACRE_SOURCE_DIR) / "tests" / "fuzz" / "corpus";
 
 std::vector<std::string> corpus_of(const std::string& target) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(kCorpora / target)) files.push_back(entry.path());
+  if (target == "tester_export") {
+    for (const auto& entry : fs::recursive_directory_iterator(kExports)) {
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+  }
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs;
   for (const fs::path& file : files) inputs.push_back(read_file(file));

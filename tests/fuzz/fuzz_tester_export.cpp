@@ -2,7 +2,7 @@
 
 #include "fuzz.hpp"
 #include "measurement/tester_export.hpp"
-#include "measurement/tester_text.hpp"
+#include "measurement/tester_encoding.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nacre;

@@ -302,8 +302,7 @@ TEST_F(ApprovalGame, NothingProposedIsOrderedWithoutAYes) {
   EXPECT_EQ(rounds(), 1u);
   const auto designs = game_.sent<wire::Proposal>("PROPOSAL").front().designs;
   for (const auto& each : designs) EXPECT_FALSE(ordered().contains(each.design.name()));
-  EXPECT_THAT(game_.status_of("validation_agent").phase,
-              AllOf(StartsWith("waits for you: 3 designs to approve; "), HasSubstr(" orders complete")));
+  EXPECT_EQ(game_.status_of("validation_agent").phase, "waits for you: 3 designs to approve");
   send_approval(designs[0].design, true);
   send_approval(designs[1].design, false);
   EXPECT_EQ(rounds(), 1u);

@@ -131,7 +131,7 @@ struct Kill {
 TEST_F(FamilyStageOfProcesses, AKilledValidationAgentGoesOnWithTheSameStage) {
   const auto game = play("killed");
   // While the first family is worked out, and while its designs are measured.
-  std::vector<Kill> kills = {{"family stage: "}, {"variants; on the seeds the global model misses"}};
+  std::vector<Kill> kills = {{"family stage: "}, {"; errors on the seeds: global model"}};
   const auto kill_when_due = [&] {
     for (std::size_t i = 0; i < kills.size(); ++i) {
       if (kills[i].process != 0 || game->said().find(kills[i].when_said) == std::string::npos) continue;

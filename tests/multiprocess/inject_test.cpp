@@ -185,10 +185,12 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   EXPECT_THAT(ordered_designs(), AllOf(Not(Contains(approved_.design.name())), Not(Contains(refused_.design.name()))));
   EXPECT_THAT(person_->decide({"approve"}),
               AllOf(HasSubstr(approved_.design.name()), HasSubstr(refused_.design.name())));
-  EXPECT_THAT(person_->decide({"approve", "00000000000000"}, 2), HasSubstr("not among the designs proposed in round 0"));
+  EXPECT_THAT(person_->decide({"approve", "00000000000000"}, 2),
+              HasSubstr("not among the designs proposed in round 0"));
   approve_and_refuse();
-  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}, 1), HasSubstr("was rejected before")) << "too late";
-  EXPECT_THAT(person_->decide({"approve", "--add", "rigid"}, 1), HasSubstr("rigid was ordered before"));
+  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}, 1), HasSubstr("was already rejected by a person"))
+      << "too late";
+  EXPECT_THAT(person_->decide({"approve", "--add", "rigid"}, 1), HasSubstr("rigid was already ordered"));
 
   // Everything but one specimen, with an outlier that is thrown out; then the agent dies; then the last specimen.
   std::vector<SpecimenRecord> specimens = person_->measured_in_laboratory();

@@ -157,7 +157,8 @@ test("every replicate of a turned order is entered as a turned one", async () =>
 });
 
 test("a game that asks for no approvals offers none", async () => {
-  const proposed = { design: PUBLISHED, modulus_pa: 1e9, toughness_pa: 1e5, reason: "" };
+  const reason = "near the best predicted toughness; nothing is measured yet; warning: a plain mixture is as tough";
+  const proposed = { design: PUBLISHED, modulus_pa: 1e9, toughness_pa: 1e5, reason };
   const other = await visitWith(`${live.url}#laboratory`, {
     "/api/run": (run) => ({ ...run, approval: false }),
     "/api/laboratory": (work) => ({
@@ -167,6 +168,8 @@ test("a game that asks for no approvals offers none", async () => {
     }),
   });
   await other.locator("text=does not wait for approval").waitFor();
+  await other.locator(".card p", { hasText: /^ ?Near the best predicted toughness; nothing is measured yet\.$/ }).waitFor();
+  await other.locator(".card p.doubt", { hasText: "Warning: a plain mixture is as tough." }).waitFor();
   assert.equal(await other.getByRole("button", { name: /Approve|Reject/ }).count(), 0);
   await leave(other);
 });
@@ -554,6 +557,71 @@ test("a mean has the digits of its error, and only specimens of the usual condit
   await finished.close();
 });
 
+test("soft and rigid have the same colours in icons and films, in both themes, and a legend", async () => {
+  const finished = await openDashboard(game.folder);
+  for (const dark of [false, true]) {
+    const on = await visit(finished.url, { dark });
+    await on.locator(".unit-button").first().click();
+    await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+    const swatch = (legend, material) =>
+      on.getByLabel(legend).locator("li", { hasText: material }).locator(".swatch").evaluate((e) => getComputedStyle(e).backgroundColor);
+    const fill = (part) => on.locator(`.design-head .unit ${part}`).evaluate((e) => getComputedStyle(e).fill);
+    for (const [material, part, colour] of [["soft", "rect", "rgb(34, 38, 44)"], ["rigid", "path", "rgb(141, 151, 166)"]]) {
+      assert.equal(await fill(part), colour, `${material}, dark: ${dark}`);
+      for (const legend of ["colours of the materials", "colours of the film"]) assert.equal(await swatch(legend, material), colour);
+    }
+    await leave(on);
+  }
+  await finished.close();
+});
+
+test("a film's T is told apart from means", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(finished.url);
+  await on.locator(".unit-button").first().click();
+  await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+  for (const name of [/^predicted mean/, /^this film/, /^measured mean/])
+    assert.ok(await on.locator(".facts tr", { hasText: name }).locator("[title]").getAttribute("title"), String(name));
+  await on.locator(".design p", { hasText: /^The film shows one specimen, T [\d.]+ MPa\./ }).waitFor();
+  await leave(on);
+  await finished.close();
+});
+
+test("headings have explanations, and no axis is empty without a sentence", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visitWith(finished.url, {
+    "/api/rounds": (said) => ({ ...said, measured: [], rounds: said.rounds.slice(0, 1) }),
+  });
+  const headings = on.getByRole("region", { name: "Rounds" }).locator("th");
+  await headings.first().waitFor();
+  for (const heading of await headings.all()) assert.ok((await heading.getAttribute("title"))?.length > 10);
+  const trends = on.locator(".trend .nothing", { hasText: "Known once proposed designs have been measured." });
+  await trends.nth(1).waitFor();
+  assert.equal(await on.locator(".gamut .nothing").count(), 0);
+  for (const layer of await on.locator(".toggles fieldset").nth(1).locator(".toggle").all()) await layer.click();
+  await on.locator(".gamut .nothing", { hasText: "Everything is switched off" }).waitFor();
+  await on.locator(".toggles fieldset").first().locator(".toggle").click();
+  await on.locator(".gamut .nothing", { hasText: "No round is shown" }).waitFor();
+  await leave(on);
+  await finished.close();
+});
+
+test("the page explains its words", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(finished.url);
+  await on.getByRole("link", { name: "What do the words mean?" }).click();
+  await on.locator(".glossary tr", { hasText: "Young's modulus" }).first().waitFor();
+  const all = await on.locator(".glossary tr").count();
+  await on.getByLabel("Find").fill("pareto");
+  await until(async () => (await on.locator(".glossary tr").count()) < all, 20, "fewer words are shown");
+  await on.locator(".glossary tr", { hasText: "Pareto front" }).first().waitFor();
+  await on.getByLabel("Find").fill("no such word");
+  await on.locator("text=No word contains").waitFor();
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+  await finished.close();
+});
+
 test("the explorer breaks what lies between patterns", async () => {
   const finished = await openDashboard(game.folder);
   const explorer = await visit(`${finished.url}#explorer`);
@@ -621,6 +689,12 @@ test("pictures and tables can be saved", async () => {
   assert.ok(words.some((w) => w.startsWith("Young's modulus")), words.join());
   assert.match(gamut.toString(), /<title>game: Gamut: toughness against Young's modulus<\/title>/);
   assert.ok(words.some((w) => w.startsWith("game: Gamut")), words.join());
+  const fronts = [...gamut.toString().matchAll(/<path d="([^"]+)"[^>]*stroke-width="1\.8"/g)];
+  assert.ok(fronts.length > 0);
+  for (const step of fronts.flatMap(([, path]) => path.split("M").filter(Boolean))) {
+    const [from, to] = step.split("L").map((place) => place.trim().split(" "));
+    assert.ok(!to || from[0] === to[0] || from[1] === to[1], `a front is a staircase: ${step}`);
+  }
   // On the page the keys stand outside of the chart.
   for (const key of ["front of gamut 1", "measured", "proposals"]) assert.ok(words.includes(key), key);
   assert.equal((await saved("gamut as PNG")).subarray(1, 4).toString(), "PNG");

@@ -212,11 +212,12 @@ export interface Group {
   valid: string[];
   proposed_outliers: { specimen: string; reasons: string[] }[];
   wanted: number;
-  mean_pa: number;
-  scatter: number;
+  /** Null where no specimen is valid; the scatter of one, too. */
+  mean_pa: number | null;
+  scatter: number | null;
   /** The same without the proposed outliers. */
-  mean_without_pa: number;
-  scatter_without: number;
+  mean_without_pa: number | null;
+  scatter_without: number | null;
 }
 
 export interface Laboratory {

@@ -116,7 +116,7 @@ function rowsOf(names: string[], width: number, key: number, gap: number, font: 
   return rows;
 }
 
-/** The option with a legend above it, and by how much the picture grows: on the page the keys stand outside the chart. */
+/** The option with a legend above it, and by how much the picture grows: the page has its keys outside the chart. */
 function withLegend(option: Option, width: number): { legended: Option; grown: number } {
   const series = option.series as { name?: string; symbol?: string; data: ArrayLike<unknown> }[];
   const shown = new Map(series.filter((s) => s.name && s.data.length > 0).map((s) => [s.name!, s]));
@@ -127,7 +127,9 @@ function withLegend(option: Option, width: number): { legended: Option; grown: n
   const textGap = 5;
   const room = width - grid.left - grid.right;
   const grown =
-    padding + (row + itemGap) * rowsOf(names, room, itemWidth + textGap, itemGap, `${fontSize}px ${familyOf(option)}`) - itemGap;
+    padding +
+    (row + itemGap) * rowsOf(names, room, itemWidth + textGap, itemGap, `${fontSize}px ${familyOf(option)}`) -
+    itemGap;
   const legend = {
     // A line without marks would get one of the palette's.
     data: [...shown.values()].map((s) => ({ name: s.name, itemStyle: s.symbol === "none" ? { opacity: 0 } : {} })),
@@ -253,7 +255,9 @@ export function ChartBox({ name, label, empty, option, height, table, onReady, t
         {tools}
         {scale && (
           <span class="scale">
-            <span>{figure(scale.low)}</span>
+            <span>
+              {scale.name} {figure(scale.low)}
+            </span>
             <span class="ramp" style={{ background: `linear-gradient(to right, ${RAMP.join(", ")})` }} />
             <span>
               {figure(scale.high)} {scale.unit}

@@ -7,8 +7,8 @@ import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
-import { duration, gpa, MPA, mpa, percent, sentence } from "./numbers";
-import { MaterialKey, Name, Problem, saveUnit, Unit, UnitButton } from "./parts";
+import { duration, gpa, MPA, mpa, percent } from "./numbers";
+import { MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
 
 /** A design that was chosen, and where. `model`: the round, or the family, whose model simulates it; `map`: of
@@ -39,7 +39,8 @@ function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" | "map"
       const query = { ...wanted, ...origin };
       try {
         let simulation = await get<Simulation>("/api/simulation", query);
-        if (simulation.state === "absent") simulation = await post<Simulation>(address("/api/simulate", origin), wanted);
+        if (simulation.state === "absent")
+          simulation = await post<Simulation>(address("/api/simulate", origin), wanted);
         if (dropped) return;
         if (simulation.state === "ready") {
           const film = await readFilm(await getBytes("/api/film", query));
@@ -190,7 +191,8 @@ function simulationOf(chosen: Chosen, design: Design | null): Values {
 const isStandard = (s: Design["specimens"][number]) => s.orientation_deg === 0 && s.standard !== false;
 
 const HINTS = {
-  predicted: "Predicted before it was measured. T is a mean of several simulations, each with slightly different parameters.",
+  predicted:
+    "Predicted before it was measured. T is a mean of several simulations, each with slightly different parameters.",
   simulated: "One simulation of one specimen: the film, where there is one. Its T differs from the predicted mean.",
   measured: "Mean of the valid specimens, tested upright at the usual rate and thickness.",
 };
@@ -213,7 +215,10 @@ function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | nul
   const counted = design?.specimens.filter((s) => s.valid && isStandard(s)) ?? [];
   const ofTest = (test: string) => counted.filter((s) => s.test === test);
   const [forE, forT] = [ofTest("modulus"), ofTest("toughness")];
-  const measured = { modulus_pa: mean(forE.map((s) => s.modulus_pa)), toughness_pa: mean(forT.map((s) => s.toughness_pa)) };
+  const measured = {
+    modulus_pa: mean(forE.map((s) => s.modulus_pa)),
+    toughness_pa: mean(forT.map((s) => s.toughness_pa)),
+  };
   const prediction = predictionOf(chosen, design);
   const simulated = simulationOf(chosen, design);
   const film = {
@@ -296,10 +301,11 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
       </div>
       <Problem text={problem} />
       {design?.proposals.map((p) => (
-        <p key={p.round} class="reason">
-          Proposed in round {p.round}. {sentence(p.reason)}. Predicted: E {gpa(p.modulus_pa)} GPa, T {mpa(p.toughness_pa)}{" "}
-          MPa.
-        </p>
+        <Reason
+          key={p.round}
+          before={`Proposed in round ${p.round}, predicted E ${gpa(p.modulus_pa)} GPa, T ${mpa(p.toughness_pa)} MPa.`}
+          text={p.reason}
+        />
       ))}
       {design?.violation && <p class="reason">Outside the design space: {design.violation}</p>}
       <CurveChart design={design} film={state.film} frame={frame} />
@@ -309,8 +315,8 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
           The film shows one specimen, T {mpa(state.film.toughness)} MPa.
           {state.simulation?.source === "here" &&
             ` Simulated just now with the model of ${
-              typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model
-            }; films of proposals and of a family's designs come from the game.`}
+              typeof chosen.model === "number" ? `round ${chosen.model}` : `the family ${chosen.model}`
+            }, since the game kept no film of it.`}
         </p>
       )}
     </>
@@ -338,7 +344,11 @@ export function DesignPanel({
         <h2>Design</h2>
         <MaterialKey />
       </div>
-      {chosen ? <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} /> : children}
+      {chosen ? (
+        <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} />
+      ) : (
+        children
+      )}
     </section>
   );
 }

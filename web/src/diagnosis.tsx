@@ -16,6 +16,17 @@ const VERDICTS: Record<string, string> = {
   unexplained: "Something is missing that no known effect explains",
 };
 
+/** Too few measurements for any verdict: nothing was considered. */
+const isUndecided = (d: Diagnosis) => d.verdict === "ambiguous" && d.candidates.length === 0;
+
+const headline = (d: Diagnosis) =>
+  isUndecided(d) ? "There are too few measurements for a diagnosis yet" : (VERDICTS[d.verdict] ?? words(d.verdict));
+
+function noNextTest(d: Diagnosis): string {
+  if (isUndecided(d)) return "None is proposed before there are more measurements.";
+  return d.verdict === "base_sufficient" ? "No further test is needed." : "No further test is proposed.";
+}
+
 /** What a status means. */
 const STATUS: Record<string, { text: string; hint: string }> = {
   in_set: { text: "explains the data", hint: "With this effect the model agrees with the measurements." },
@@ -97,7 +108,7 @@ function saveDiagnosis(diagnosis: Diagnosis): void {
 function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
   return (
     <>
-      <h2>{VERDICTS[diagnosis.verdict] ?? words(diagnosis.verdict)}</h2>
+      <h2>{headline(diagnosis)}</h2>
       <p>{diagnosis.summary}</p>
       {diagnosis.against && <p class="doubt">{diagnosis.against}</p>}
       {diagnosis.effects.map((e) => (
@@ -117,7 +128,12 @@ function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
       ))}
       {diagnosis.gain && <Gain gain={diagnosis.gain} />}
       {(diagnosis.effects.length > 0 || diagnosis.gain) && (
-        <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveDiagnosis(diagnosis)}>
+        <button
+          type="button"
+          class="quiet"
+          aria-label="effects and gain as CSV"
+          onClick={() => saveDiagnosis(diagnosis)}
+        >
           CSV
         </button>
       )}
@@ -133,7 +149,7 @@ function NextTests({ diagnosis }: { diagnosis: Diagnosis }) {
         caption="Next tests, which would settle what is open"
         rows={diagnosis.next_experiments}
         rowKey={(e: Experiment) => JSON.stringify(e)}
-        empty="No further test is needed."
+        empty={noNextTest(diagnosis)}
         columns={[
           {
             ...TERMS.design,
@@ -156,7 +172,12 @@ function NextTests({ diagnosis }: { diagnosis: Diagnosis }) {
           { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
           { heading: "thickness_mm", value: (e) => e.thickness_mm },
           { heading: "loading", value: (e) => e.loading },
-          { heading: "replicates", hint: "How many specimens to test.", show: (e) => e.replicates, value: (e) => e.replicates },
+          {
+            heading: "replicates",
+            hint: "How many specimens to test.",
+            show: (e) => e.replicates,
+            value: (e) => e.replicates,
+          },
           { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
         ]}
       />
@@ -244,7 +265,11 @@ export function DiagnosisView({ rounds }: { rounds: Rounds }) {
   const [picked, setPicked] = useState<number | null>(null);
   const round = picked ?? diagnosed.at(-1);
   if (round === undefined)
-    return <p class="awaited wait">There is no diagnosis yet: the first one follows the first measurements of proposed designs.</p>;
+    return (
+      <p class="awaited wait">
+        There is no diagnosis yet: the first one follows the first measurements of proposed designs.
+      </p>
+    );
   const tabs = (
     <div class="tabs small" role="group" aria-label="round">
       {diagnosed.map((r) => (

@@ -76,7 +76,7 @@ function Choices({
             ))}
           {maps.gamuts.map((each) => (
             <option key={each} value={each}>
-              best patterns of gamut {each.split("/")[1]}
+              best patterns of round {each.split("/")[1]}
             </option>
           ))}
         </select>
@@ -232,8 +232,8 @@ function MapView({
             <Choices maps={maps} id={id} pick={pick} coloured={coloured} setColoured={setColoured} />
           </div>
           <p class="quiet">
-            Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag across
-            the map to go between patterns, and break what you find.
+            Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag
+            across the map to go between patterns, and break what you find.
           </p>
           <Problem text={problem} />
           {map ? (
@@ -267,7 +267,7 @@ function MapView({
           {chosen ? (
             <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} />
           ) : (
-            !blend && <p class="quiet">Nothing chosen yet.</p>
+            !blend && <p class="quiet">Nothing chosen yet: click a pattern on the map.</p>
           )}
         </section>
       </div>

@@ -23,20 +23,22 @@ function Explanation({ families }: { families: Families }) {
     return (
       <p class="quiet">
         {families.enabled
-          ? "The best designs measured so far, grouped. After the last round each family gets a model of its own, which proposes variants to measure."
-          : "The best designs measured so far, grouped by pattern and properties. This game has no family stage ([families] enabled = true adds one); nacre families analyses the groups afterwards."}
+          ? "The best designs measured so far, grouped. After the last round each family gets a model of its own, " +
+            "which proposes variants to measure."
+          : "The best designs measured so far, grouped by pattern and properties. This game has no family stage " +
+            "([families] enabled = true adds one); nacre families analyses the groups afterwards."}
       </p>
     );
   return (
     <>
       <p class="quiet">
         Diamonds: measured seeds. Small points: variants within 16 pixels, by the family's own model. Rings: variants
-        chosen for the laboratory, as predicted; a line leads to the measured value.
+        chosen for the laboratory, as predicted; a line leads to the measured value. Grey: other measured designs.
       </p>
       {over.map((f) => (
         <p key={f.name} class="notice bad" role="status">
-          {f.name}: its own model over-fits {f.over_fits.join(" and ")}. It is nearer to the seeds than the global model,
-          and farther from the variants: trust the global model.
+          {f.name}: its own model over-fits {f.over_fits.join(" and ")}. It is nearer to the seeds than the global
+          model, and farther from the variants: trust the global model.
         </p>
       ))}
       {worse.map((f) => (

@@ -128,8 +128,8 @@ export function Grouping({
       </div>
       {isOvertaken && (
         <p class="notice doubt" role="status">
-          {from === "file" ? "families.toml has" : "The proposal has"} changed since you began: your grouping stays until
-          you save it or use the new one.
+          {from === "file" ? "families.toml has" : "The proposal has"} changed since you began: your grouping stays
+          until you save it or use the new one.
         </p>
       )}
       <Notice notice={fault ? { kind: "bad", text: fault } : notice} />

@@ -164,7 +164,10 @@ export function SubfamilyTable({ maps }: { maps: Maps }) {
     <section class="panel">
       <Table
         name="subfamilies"
-        caption={`Subfamilies: how far interpolation extends the variants around a seed (thesis, Table A.7: ${percent(THESIS_GROWTH)})`}
+        caption={
+          "Subfamilies: how far interpolation extends the variants around a seed " +
+          `(thesis, Table A.7: ${percent(THESIS_GROWTH)})`
+        }
         rows={rows}
         rowKey={(r) => `${r.family} ${r.seed}`}
         empty=""

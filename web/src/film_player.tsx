@@ -48,7 +48,8 @@ class FilmPainter {
         if (film.material[e] === VOID || this.failing[e] < f) continue;
         const a = row * (film.columns + 1) + column;
         const b = a + film.columns + 1;
-        const colour = this.failing[e] === f && f > 0 ? BREAKING_POINT : this.colours[film.material[e]][film.energy[f][e]];
+        const whole = this.colours[film.material[e]][film.energy[f][e]];
+        const colour = this.failing[e] === f && f > 0 ? BREAKING_POINT : whole;
         const x0 = Math.max(0, Math.round(Math.min(xs[a], xs[b])));
         const x1 = Math.min(canvas.width, Math.round(Math.max(xs[a + 1], xs[b + 1])));
         const y0 = Math.max(0, Math.round(Math.min(ys[b], ys[b + 1])));
@@ -172,7 +173,11 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
       <div class="tools">
         {film.path && (
           <label class="check">
-            <input type="checkbox" checked={withPath} onChange={(event) => setWithPath(event.currentTarget.checked)} />{" "}
+            <input
+              type="checkbox"
+              checked={withPath}
+              onChange={(event) => setWithPath(event.currentTarget.checked)}
+            />{" "}
             crack path
           </label>
         )}

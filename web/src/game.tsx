@@ -172,8 +172,18 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
       ] as Trend[],
       gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => ofMeasured(r, r.summary!.gap) }] as Trend[],
       errors: [
-        { name: TERMS.modulusError.heading, csv: CSV.predictionE, colour: sim, value: (r) => someE(r.summary!.held_out) },
-        { name: TERMS.toughnessError.heading, csv: CSV.predictionT, colour: meas, value: (r) => someT(r.summary!.held_out) },
+        {
+          name: TERMS.modulusError.heading,
+          csv: CSV.predictionE,
+          colour: sim,
+          value: (r) => someE(r.summary!.held_out),
+        },
+        {
+          name: TERMS.toughnessError.heading,
+          csv: CSV.predictionT,
+          colour: meas,
+          value: (r) => someT(r.summary!.held_out),
+        },
         {
           name: TERMS.toughnessFit.heading,
           csv: CSV.afterT,

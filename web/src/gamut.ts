@@ -34,7 +34,8 @@ export async function loadGamut(which: { round: number } | { family: string }): 
     points[2 * i + 1] = toughness[i] * MPA;
   }
   header.front.sort((a, b) => modulus[a] - modulus[b]);
-  return { round: header.round, patterns: new BigUint64Array(buffer, begin, header.count), points, front: header.front };
+  const patterns = new BigUint64Array(buffer, begin, header.count);
+  return { round: header.round, patterns, points, front: header.front };
 }
 
 export const keyAt = (gamut: Gamut, index: number) => keyOfBits(gamut.patterns[index]);
@@ -71,7 +72,7 @@ export class PointIndex {
     return Math.min(PointIndex.cells - 1, Math.max(0, Math.floor((value - this.low[axis]) / this.size[axis])));
   }
 
-  /** The point nearest to (x, y) within the distances (rx, ry), which count as equally far; and how far it is, 0 to 1. */
+  /** The point nearest to (x, y) within (rx, ry), which count as equally far; and how far it is, 0 to 1. */
   nearest(x: number, y: number, rx: number, ry: number): { index: number; distance: number } | null {
     let best = 1;
     let index = -1;
@@ -86,13 +87,14 @@ export class PointIndex {
   }
 }
 
-/** A front as a step line: corners of the region that it dominates, from the toughness axis to the modulus axis. */
-export function staircase(front: [number, number][]): [number, number][] {
+/** A front as a step line: the edge of the region that it dominates, from the toughness axis to the modulus axis. Each
+ *  step is a piece of its own, ended by nulls: a chart leaves out short steps of one line, and would slope there. */
+export function staircase(front: [number, number][]): ([number, number] | [null, null])[] {
   if (front.length === 0) return [];
   const sorted = [...front].sort((a, b) => a[0] - b[0]);
   const corners: [number, number][] = [[0, sorted[0][1]]];
   sorted.forEach((point, i) => {
     corners.push(point, [point[0], i + 1 < sorted.length ? sorted[i + 1][1] : 0]);
   });
-  return corners;
+  return corners.slice(1).flatMap((corner, i) => [corners[i], corner, [null, null] as [null, null]]);
 }

@@ -46,13 +46,14 @@ function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
   return [...measured, ...proposals];
 }
 
-const line = (name: string, data: [number, number][], colour: string, more: Option = {}): Option => ({
+const line = (name: string, data: unknown[], colour: string, more: Option = {}): Option => ({
   type: "line",
   name,
   data,
   symbol: "none",
   silent: true,
-  lineStyle: { color: colour, width: 1.8, ...(more.lineStyle as Option) },
+  connectNulls: false,
+  lineStyle: { color: colour, width: 1.8, cap: "square", ...(more.lineStyle as Option) },
   z: 4,
 });
 

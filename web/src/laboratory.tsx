@@ -46,7 +46,8 @@ const stateColumns = [
   { heading: "why", value: (d: DesignState) => d.why },
 ];
 
-const inUnit = (g: Group, pa: number) => (g.test === "modulus" ? `${gpa(pa)} GPa` : `${mpa(pa)} MPa`);
+const inUnit = (g: Group, pa: number | null) =>
+  pa === null ? "-" : (g.test === "modulus" ? `${gpa(pa)} GPa` : `${mpa(pa)} MPa`);
 
 /** Green only where nothing is open: outliers that nobody has reviewed spoil a mean. */
 function chipOf(g: Group): string {
@@ -109,12 +110,12 @@ const groupColumns = [
     show: (g: Group) => inUnit(g, g.mean_pa),
     value: (g: Group) => g.mean_pa,
   },
-  { ...TERMS.scatter, show: (g: Group) => percent(g.scatter), value: (g: Group) => g.scatter },
+  { ...TERMS.scatter, show: (g: Group) => (g.scatter === null ? "-" : percent(g.scatter)), value: (g: Group) => g.scatter },
   {
     ...TERMS.withoutOutliers,
     csv: "mean_without_pa",
     show: (g: Group) =>
-      g.proposed_outliers.length > 0 ? `${inUnit(g, g.mean_without_pa)}, ${percent(g.scatter_without)}` : "",
+      g.proposed_outliers.length > 0 ? `${inUnit(g, g.mean_without_pa)}, ${g.scatter_without === null ? "-" : percent(g.scatter_without)}` : "",
     value: (g: Group) => g.mean_without_pa,
   },
   { heading: "scatter_without", value: (g: Group) => g.scatter_without },

@@ -149,8 +149,8 @@ function Page() {
         {view === "words" && <WordsView />}
       </main>
       <footer class="quiet">
-        {info.scenario}, {info.fidelity} specimens · started {info.started.replace("T", " ").replace("Z", " UTC")} · nacre{" "}
-        {info.nacre_version} · <a href="#words">What do the words mean?</a>
+        {info.scenario}, {info.fidelity} specimens · started {info.started.replace("T", " ").replace("Z", " UTC")} ·
+        nacre {info.nacre_version} · <a href="#words">What do the words mean?</a>
       </footer>
     </ThemeContext.Provider>
   );

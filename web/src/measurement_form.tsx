@@ -44,7 +44,9 @@ function inWordsOfForm(sentence: string, form: Form): string {
   const [, column, rest] = /^(?:column )?(\w+): ([\s\S]*)$/.exec(sentence) ?? [];
   const known = column ? FIELDS[column] : undefined;
   if (!known) return column === "curve" ? `Curve: ${rest}` : sentence;
-  const labelled = Object.entries(FIELDS).reduce((text, [name, { label }]) => text.replaceAll(name, label), rest);
+  const labelled = Object.entries(FIELDS)
+    .filter(([name]) => name.includes("_")) // others are words, too
+    .reduce((text, [name, { label }]) => text.replaceAll(name, label), rest);
   const typed = String(form[known.field]).trim();
   const value = typed ? `“${typed}”${known.unit ? ` ${known.unit}` : ""}` : "left empty";
   return `${known.label}, ${value}: ${labelled}`;

@@ -28,7 +28,10 @@ export function NodeStrip({ live }: { live: Live }) {
           <p class="phase" title={n.phase || undefined}>
             <Phase node={n} />
           </p>
-          <Bar share={n.state === "finished" || n.state === "ended" ? 1 : n.progress} label={`progress of the ${nameOf(n.node)}`} />
+          <Bar
+            share={n.state === "finished" || n.state === "ended" ? 1 : n.progress}
+            label={`progress of the ${nameOf(n.node)}`}
+          />
         </li>
       ))}
     </ul>

@@ -3,7 +3,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { MATERIAL } from "./colour";
-import { figure } from "./numbers";
+import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
 
@@ -31,7 +31,7 @@ export function Unit({ design, size, label = true }: { design: string; size: num
   );
 }
 
-/** Which colour is which material, beside pictures of patterns. */
+/** The colours of the materials, for pictures of patterns. */
 export function MaterialKey() {
   return (
     <ul class="keys materials" aria-label="colours of the materials">
@@ -45,12 +45,15 @@ export function MaterialKey() {
 }
 
 /** A pattern to choose, with its E in GPa and T in MPa. */
-export function UnitButton({ design, values, choose }: { design: string; values: [string, string]; choose: () => void }) {
+export function UnitButton(
+  { design, values, choose }: { design: string; values: [string, string]; choose: () => void },
+) {
   return (
     <button type="button" class="unit-button" onClick={choose}>
       <Unit design={design} size={70} />
       <span>
-        E {values[0]} · T {values[1]}
+        E {values[0]} GPa
+        <br />T {values[1]} MPa
       </span>
     </button>
   );
@@ -65,7 +68,9 @@ export function saveUnit(design: string): void {
   if (!pixels) return;
   saveSvg(
     design,
-    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="${MATERIAL.soft}"/><path d="${rigidPath(pixels)}" fill="${MATERIAL.rigid}"/></svg>\n`,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" ` +
+      `shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="${MATERIAL.soft}"/>` +
+      `<path d="${rigidPath(pixels)}" fill="${MATERIAL.rigid}"/></svg>\n`,
     `pattern ${design}`,
   );
 }
@@ -164,6 +169,21 @@ export function Table<Row>({
         </div>
       )}
     </div>
+  );
+}
+
+/** Why a design is proposed: sentences, the warning among them marked. */
+export function Reason({ text, before = "" }: { text: string; before?: string }) {
+  const [reason, warning] = text.split("; warning: ");
+  return (
+    <>
+      {(before || reason) && (
+        <p class="quiet">
+          {before} {reason && `${sentence(reason)}.`}
+        </p>
+      )}
+      {warning && <p class="doubt reason">Warning: {warning}.</p>}
+    </>
   );
 }
 

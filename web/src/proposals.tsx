@@ -2,7 +2,7 @@
 
 import type { Family, Laboratory, Proposed } from "./api";
 import { gpa, mpa, sentence } from "./numbers";
-import { DesignChip, MaterialKey, Name, Notice, Unit, useDraft } from "./parts";
+import { DesignChip, MaterialKey, Name, Notice, Reason, Unit, useDraft } from "./parts";
 import { useSubmit } from "./submit";
 
 /** Designs that may wait for an approval: of a round, or of the family stage after the last one. */
@@ -29,23 +29,15 @@ export function offerOf(laboratory: Laboratory, stage: Family[], lastRound: numb
             design: d.design,
             modulus_pa: d.family_model.modulus_pa ?? NaN,
             toughness_pa: d.family_model.toughness_pa ?? NaN,
-            reason: `one of the toughest variants of ${f.name} for its stiffness, by the family's own model`,
+            reason:
+              `near the best predicted toughness for its stiffness among the variants of ${f.name}, ` +
+              "with the family's own model",
           })),
       ),
     };
   const { proposal } = laboratory;
-  return proposal && { title: `Proposals of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
-}
-
-/** Why a design is proposed: sentences, the warning among them marked. */
-function Reason({ text }: { text: string }) {
-  const [reason, warning] = text.split("; warning: ");
-  return (
-    <>
-      {reason && <p class="quiet">{sentence(reason)}.</p>}
-      {warning && <p class="doubt">Warning: {warning}.</p>}
-    </>
-  );
+  if (!proposal) return proposal;
+  return { title: `Proposals of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
 }
 
 /** What happens to the designs of an offer. */
@@ -124,7 +116,12 @@ export function Proposals({
                     <button type="button" disabled={busy || !by} onClick={() => approveOrReject(p.design, true)}>
                       Approve
                     </button>
-                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => approveOrReject(p.design, false)}>
+                    <button
+                      type="button"
+                      class="quiet"
+                      disabled={busy || !by}
+                      onClick={() => approveOrReject(p.design, false)}
+                    >
                       Reject
                     </button>
                   </div>

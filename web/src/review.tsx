@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Laboratory, LaboratorySpecimen } from "./api";
 import { gpa, mpa } from "./numbers";
-import { Name, Notice, Table, Unit, unusual } from "./parts";
+import { Name, Notice, Table, Unit, unusual, type Column } from "./parts";
 import { useSubmit } from "./submit";
 import { TERMS } from "./terms";
 
@@ -29,7 +29,9 @@ export function Specimens({
   const [why, setWhy] = useState("");
   const [find, setFind] = useState("");
   const [notice, busy, submit] = useSubmit(refresh);
-  const doubts = new Map(laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
+  const doubts = new Map(
+    laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)),
+  );
   const rows = laboratory.specimens
     .filter((s) => `${s.specimen} ${s.design} ${s.test} ${s.batch}`.toLowerCase().includes(find.toLowerCase()))
     .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
@@ -47,6 +49,48 @@ export function Specimens({
     const done = `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`;
     if (await submit("/api/review", { specimen: s.specimen, valid: !s.valid, by, why }, done)) close(s);
   };
+  const reviewColumn: Column<LaboratorySpecimen> = {
+    ...TERMS.review,
+    words: true,
+    show: (s) =>
+      reviewed === s.specimen ? (
+        <form
+          class="review"
+          onSubmit={(e) => {
+            e.preventDefault();
+            void review(s);
+          }}
+        >
+          <input
+            required
+            ref={reason}
+            aria-label={`why ${s.specimen} is ${s.valid ? "not valid" : "valid"}`}
+            placeholder="why"
+            value={why}
+            maxLength={200}
+            onInput={(e) => setWhy(e.currentTarget.value)}
+          />
+          <button type="submit" disabled={busy || !by}>
+            {s.valid ? "not valid" : "valid"}
+          </button>
+          <button type="button" class="quiet" onClick={() => close(s)}>
+            cancel
+          </button>
+        </form>
+      ) : (
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => {
+            setReviewed(s.specimen);
+            setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
+          }}
+          aria-label={`review ${s.specimen}`}
+        >
+          review
+        </button>
+      ),
+  };
   return (
     <section class="panel">
       <h2>Specimens</h2>
@@ -55,6 +99,7 @@ export function Specimens({
           Find{" "}
           <input
             type="search"
+            size={32}
             value={find}
             onInput={(e) => setFind(e.currentTarget.value)}
             placeholder="specimen, design, test or batch"
@@ -93,7 +138,12 @@ export function Specimens({
           { heading: "thickness_mm", value: (s) => s.thickness_mm },
           { heading: "batch", value: (s) => s.batch },
           { ...TERMS.oneModulus, csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
-          { ...TERMS.oneToughness, csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
+          {
+            ...TERMS.oneToughness,
+            csv: "toughness_pa",
+            show: (s) => mpa(s.toughness_pa),
+            value: (s) => s.toughness_pa,
+          },
           {
             ...TERMS.specimenValid,
             words: true,
@@ -120,50 +170,7 @@ export function Specimens({
           },
           { heading: "by", value: (s) => s.by },
           { heading: "why", value: (s) => s.why },
-          {
-            ...TERMS.review,
-            words: true,
-            show: (s) =>
-              !playing ? (
-                ""
-              ) : reviewed === s.specimen ? (
-                <form
-                  class="review"
-                  onSubmit={(e) => {
-                    e.preventDefault();
-                    void review(s);
-                  }}
-                >
-                  <input
-                    required
-                    ref={reason}
-                    aria-label={`why ${s.specimen} is ${s.valid ? "not valid" : "valid"}`}
-                    placeholder="why"
-                    value={why}
-                    maxLength={200}
-                    onInput={(e) => setWhy(e.currentTarget.value)}
-                  />
-                  <button type="submit" disabled={busy || !by}>
-                    {s.valid ? "not valid" : "valid"}
-                  </button>
-                  <button type="button" class="quiet" onClick={() => close(s)}>
-                    cancel
-                  </button>
-                </form>
-              ) : (
-                <button
-                  type="button"
-                  class="quiet"
-                  onClick={() => {
-                    setReviewed(s.specimen);
-                    setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
-                  }}
-                  aria-label={`review ${s.specimen}`}
-                >
-                  review
-                </button>
-              ),
-          },
+          ...(playing ? [reviewColumn] : []),
         ]}
       />
     </section>

@@ -37,19 +37,19 @@ export const TERMS = {
     "Area between the predicted front and the measured one: how far simulation and laboratory are apart.",
   ),
   modulusError: term(
-    "prediction error of E",
+    "prediction error of\u00a0E",
     "Mean relative error of E on designs that were predicted before they were measured (out-of-sample).",
   ),
   toughnessError: term(
-    "prediction error of T",
+    "prediction error of\u00a0T",
     "Mean relative error of T on designs that were predicted before they were measured (out-of-sample).",
   ),
   toughnessRank: term(
-    "rank correlation of T",
+    "rank correlation of\u00a0T",
     "Whether predicted and measured T have the same order (Spearman): 1 is the same, 0 none. From three designs on.",
   ),
-  modulusFit: term("fit error of E", "Mean relative error of E after calibration, on the designs used for it."),
-  toughnessFit: term("fit error of T", "Mean relative error of T after calibration, on the designs used for it."),
+  modulusFit: term("fit error of\u00a0E", "Mean relative error of E after calibration, on the designs used for it."),
+  toughnessFit: term("fit error of\u00a0T", "Mean relative error of T after calibration, on the designs used for it."),
   equilibrium: term("equilibrium", "Whether two rounds running added nothing, and the comparison that decided it."),
 
   designState: term("state", "How far the design has got: pending, approved, printed, measured, or rejected."),
@@ -60,7 +60,10 @@ export const TERMS = {
   valid: term("valid", "Tested specimens that count."),
   approval: term("approved or rejected by", "Who said yes or no to the design, and why."),
 
-  test: term("test", "modulus: a bar, slightly stretched. toughness: a notched specimen, pulled apart. tensile: a bar."),
+  test: term(
+    "test",
+    "modulus: a bar, slightly stretched. toughness: a notched specimen, pulled apart. tensile: a bar.",
+  ),
   groupState: term("state", "Whether enough specimens of this design and test agree."),
   validOfTested: term("valid of tested", "Specimens that count, of those tested."),
   mean: term("mean", "Mean of the valid specimens."),
@@ -83,12 +86,18 @@ export const TERMS = {
   ),
 
   family: term("family", "Similar good patterns with a model of their own."),
-  role: term("role", "seed: a measured design of the family. variant: a new one near a seed, chosen by the family's model."),
+  role: term(
+    "role",
+    "seed: a measured design of the family. variant: a new one near a seed, chosen by the family's model.",
+  ),
   globalE: term("E, global model", "With the model that is calibrated on all designs."),
   familyE: term("E, family model", "With the model that is calibrated on the seeds of this family alone."),
   globalT: term("T, global model", "With the model that is calibrated on all designs."),
   familyT: term("T, family model", "With the model that is calibrated on the seeds of this family alone."),
-  familyModel: term("family model", "Whether the family's own model predicts its variants better than the global model."),
+  familyModel: term(
+    "family model",
+    "Whether the family's own model predicts its variants better than the global model.",
+  ),
   seed: term("seed", "The measured design around which variants were drawn."),
   sampled: term("sampled", "Variants drawn at random."),
   interpolated: term("interpolated", "Variants between others, found on the map."),

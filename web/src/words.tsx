@@ -5,10 +5,14 @@ import { useMemo, useState } from "preact/hooks";
 import glossary from "../../docs/GLOSSARY.md";
 
 /** A row of a table, an item of a list, or a paragraph: its cells, in Markdown. */
+interface Row {
+  cells: string[];
+  isHeading: boolean;
+}
+
 interface Section {
   title: string;
-  heading: string[];
-  rows: string[][];
+  rows: Row[];
 }
 
 const cellsOf = (line: string) =>
@@ -21,19 +25,21 @@ const cellsOf = (line: string) =>
 /** Sections of a page in Markdown; what is no table becomes rows of one cell. */
 export function sectionsOf(markdown: string): Section[] {
   const sections: Section[] = [];
-  let section: Section = { title: "", heading: [], rows: [] };
-  const isTable = (line: string) => line.trimStart().startsWith("|");
-  const lines = markdown.split("\n");
-  lines.forEach((line, i) => {
+  let section: Section = { title: "", rows: [] };
+  let isOpen = false; // whether the last row goes on in the next line
+  const add = (cells: string[]) => section.rows.push({ cells, isHeading: false });
+  for (const line of markdown.split("\n")) {
     const title = /^#+\s+(.*)/.exec(line)?.[1];
-    if (title) sections.push((section = { title, heading: [], rows: [] }));
-    else if (isTable(line) && /^[\s|:-]+$/.test(line)) section.heading = section.rows.pop() ?? [];
-    else if (isTable(line)) section.rows.push(cellsOf(line));
-    else if (/^\s*- /.test(line)) section.rows.push([line.replace(/^\s*- /, "")]);
-    else if (line.trim() !== "" && i > 0 && lines[i - 1].trim() !== "" && section.rows.at(-1)?.length === 1)
-      section.rows.at(-1)![0] += ` ${line.trim()}`;
-    else if (line.trim() !== "") section.rows.push([line.trim()]);
-  });
+    const isTable = line.trimStart().startsWith("|");
+    const last = section.rows.at(-1);
+    if (title) sections.push((section = { title, rows: [] }));
+    else if (isTable && /^[\s|:-]+$/.test(line)) last && (last.isHeading = true);
+    else if (isTable) add(cellsOf(line));
+    else if (/^\s*- /.test(line)) add([line.replace(/^\s*- /, "")]);
+    else if (line.trim() !== "" && isOpen && last) last.cells[0] += ` ${line.trim()}`;
+    else if (line.trim() !== "") add([line.trim()]);
+    isOpen = line.trim() !== "" && !title && !isTable;
+  }
   return sections.filter((s) => s.rows.length > 0);
 }
 
@@ -41,37 +47,33 @@ export function sectionsOf(markdown: string): Section[] {
 function inline(markdown: string): ComponentChildren[] {
   const plain = markdown.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1");
   return plain.split(/(\*\*[^*]+\*\*|\*[^*]+\*|`[^`]+`)/).map((part) => {
-    if (part.startsWith("**")) return <strong>{part.slice(2, -2)}</strong>;
-    if (part.startsWith("*")) return <em>{part.slice(1, -1)}</em>;
+    if (part.startsWith("**")) return <strong>{inline(part.slice(2, -2))}</strong>;
+    if (part.startsWith("*")) return <em>{inline(part.slice(1, -1))}</em>;
     if (part.startsWith("`")) return <code class="key">{part.slice(1, -1)}</code>;
     return part;
   });
 }
 
-function Rows({ section }: { section: Section }) {
-  const columns = Math.max(...section.rows.map((row) => row.length));
+function Rows({ rows }: { rows: Row[] }) {
+  const columns = Math.max(...rows.map((row) => row.cells.length));
   return (
     <div class="wide glossary">
       <table>
-        {section.heading.length > 0 && (
-          <thead>
-            <tr>
-              {section.heading.map((cell) => (
-                <th key={cell} scope="col" class="words">
-                  {inline(cell)}
-                </th>
-              ))}
-            </tr>
-          </thead>
-        )}
         <tbody>
-          {section.rows.map((row, i) => (
+          {rows.map(({ cells, isHeading }, i) => (
             <tr key={i}>
-              {row.map((cell, k) => (
-                <td key={k} class="words" colSpan={k + 1 === row.length ? columns - k : 1}>
-                  {inline(cell)}
-                </td>
-              ))}
+              {cells.map((cell, k) => {
+                const span = k + 1 === cells.length ? columns - k : 1;
+                return isHeading ? (
+                  <th key={k} scope="col" class="words" colSpan={span}>
+                    {inline(cell)}
+                  </th>
+                ) : (
+                  <td key={k} class="words" colSpan={span}>
+                    {inline(cell)}
+                  </td>
+                );
+              })}
             </tr>
           ))}
         </tbody>
@@ -85,7 +87,7 @@ export function WordsView() {
   const sections = useMemo(() => sectionsOf(glossary), []);
   const wanted = find.trim().toLowerCase();
   const found = sections
-    .map((s) => ({ ...s, rows: s.rows.filter((row) => row.join(" ").toLowerCase().includes(wanted)) }))
+    .map((s) => ({ ...s, rows: s.rows.filter(({ cells }) => cells.join(" ").toLowerCase().includes(wanted)) }))
     .filter((s) => s.rows.length > 0);
   return (
     <section class="panel words-view">
@@ -100,7 +102,7 @@ export function WordsView() {
       {found.map((section) => (
         <details key={section.title} open>
           <summary>{section.title}</summary>
-          <Rows section={section} />
+          <Rows rows={section.rows} />
         </details>
       ))}
     </section>

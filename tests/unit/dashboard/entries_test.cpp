@@ -9,7 +9,8 @@ namespace {
 using testing::HasSubstr;
 
 constexpr const char* kSpecimen =
-    R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","batch":"b1","valid":true})";
+    R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","batch":"b1","valid":true,)"
+    R"("curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n"})";
 
 std::string fault(const std::string& json) {
   const auto specimen = specimen_from_json(json);

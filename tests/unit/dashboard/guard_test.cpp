@@ -62,9 +62,21 @@ TEST(Guard, TheLinkOpensThePageFromElsewhereToo) {
 
 TEST(Guard, RefusesNamesThatAreNotItsOwn) {
   for (const char* host :
-       {"evil.example:8765", "127.0.0.1:80", "localhost", "", "127.0.0.1.evil.example:8765", "10.0.0.7:8765"})
+       {"evil.example:8765", "localhost.evil.example", "", "127.0.0.1.evil.example:8765", "10.0.0.7:8765", ":8765"})
     EXPECT_EQ(status(kOpen, reading(host)), 421) << host;
   EXPECT_EQ(status(kClosed, with(reading("evil.example:8765"), "authorization", "Bearer 0123456789abcdef")), 421);
+}
+
+// A tunnel has a port of its own at home: no foreign page can be called localhost.
+TEST(Guard, LetsATunnelInUnderThisMachinesNamesAndAProxyUnderTheOneThatWasAllowed) {
+  for (const char* host : {"localhost:9000", "localhost", "localhost.", "127.0.0.1:80", "[::1]"})
+    EXPECT_EQ(status(kOpen, reading(host)), 200) << host;
+  AccessRules rules = kOpen;
+  rules.hosts.insert(rules.hosts.end(), {"lab.example", "other.example:444"});
+  for (const char* host : {"lab.example", "Lab.Example:8443", "other.example:444"})
+    EXPECT_EQ(status(rules, reading(host)), 200) << host;
+  for (const char* host : {"other.example", "other.example:445", "evil.example"})
+    EXPECT_EQ(status(rules, reading(host)), 421) << host;
 }
 
 TEST(Guard, AsksForTheToken) {

@@ -126,7 +126,7 @@ TEST_P(EverySearch, MisuseIsOurBugAndIsAsserted) {
   const std::vector<std::optional<optimize::Performance>> one(1);
   EXPECT_DEATH(search->tell(one), "tell\\(\\) without a batch");
   EXPECT_EQ(search->ask().size(), 10u);
-  EXPECT_DEATH(search->tell(one), "whole batch");
+  EXPECT_DEATH(search->tell(one), "for every pattern of the batch");
   EXPECT_DEATH(search->ask(), "before the last batch was told");
 }
 

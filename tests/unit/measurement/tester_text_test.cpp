@@ -1,4 +1,6 @@
 #include "measurement/tester_text.hpp"
+#include "measurement/tester_encoding.hpp"
+#include "measurement/tester_numbers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -129,9 +131,11 @@ TEST(Columns, AreRecognisedByNameInAnyLanguageWithTheirUnit) {
 }
 
 TEST(Columns, ThatMeanSomethingElseAreLeftAlone) {
-  for (const char* heading : {"Tensile strain (Extension) (mm/mm)", "Tensile stress (MPa)", "Maximum Load (N)",
-                              "Load at Break (N)", "Extension at Break (mm)", "Test date", "Strain rate", "Specimen"})
+  for (const char* heading :
+       {"Maximum Load (N)", "Load at Break (N)", "Extension at Break (mm)", "Test date", "Strain rate", "Specimen"})
     EXPECT_FALSE(recognise_column(heading).quantity) << heading;
+  EXPECT_EQ(recognise_column("Tensile strain (Extension) (mm/mm)").quantity, Quantity::strain);
+  EXPECT_EQ(recognise_column("Tensile stress (MPa)").quantity, Quantity::stress);
   EXPECT_EQ(recognise_column("Strain 1 (mm)").unit, "(mm)") << "who asks for it by name gets its unit";
 }
 

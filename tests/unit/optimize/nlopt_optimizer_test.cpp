@@ -266,7 +266,7 @@ TEST(NloptOptimizer, MisuseIsOurBugAndIsAsserted) {
   EXPECT_DEATH(optimizer->tell({1.0}), "without a batch");
   EXPECT_EQ(optimizer->ask().size(), 3u);
   EXPECT_DEATH(optimizer->ask(), "before the last batch was told");
-  EXPECT_DEATH(optimizer->tell({1.0}), "whole batch");
+  EXPECT_DEATH(optimizer->tell({1.0}), "for every point of the batch");
 }
 
 TEST(NloptOptimizer, RefusesSettingsThatMeanNothing) {

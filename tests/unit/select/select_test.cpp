@@ -57,7 +57,7 @@ TEST(SelectDesigns, CoverTheFrontWithOneDesignPerBin) {
     const std::string place = bin == 0   ? "in the least stiff of 8 parts of the front"
                               : bin == 7 ? "in the stiffest of 8 parts of the front"
                                          : "in part " + std::to_string(bin + 1) + " of 8 of the front";
-    EXPECT_THAT(design.reason, HasSubstr("one of the toughest predicted for its stiffness " + place));
+    EXPECT_THAT(design.reason, HasSubstr("near the best predicted toughness for its stiffness, " + place));
     EXPECT_THAT(design.reason, MatchesRegex(".* measured [a-z ]+\\([0-9]+ of 400 pixels differ, [0-9]+ from the other "
                                             "proposals\\)"));
     if (bin > 0) {
@@ -79,8 +79,9 @@ TEST(SelectDesigns, TakesThePatternThatDiffersMostFromTheMeasured) {
   const auto selected = select_designs(gamut, std::vector{measured}, {}, {.count = 1});
   ASSERT_EQ(selected.size(), 1u);
   EXPECT_EQ(selected[0].pattern, far);
-  EXPECT_EQ(selected[0].reason,
-            "one of the toughest predicted for its stiffness; close to a measured design (24 of 400 pixels differ)");
+  EXPECT_EQ(
+      selected[0].reason,
+      "near the best predicted toughness for its stiffness; close to a measured design (24 of 400 pixels differ)");
 }
 
 TEST(SelectDesigns, OfTwoOneIsOfTheLeastStiffHalfAndOneOfTheStiffest) {

@@ -1,0 +1,100 @@
+#include "measurement/export_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "measurement/tester_blocks.hpp"
+#include "measurement/tester_encoding.hpp"
+#include "measurement/tester_header.hpp"
+#include "measurement/tester_parts.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+std::string delimiter_in_words(char delimiter) {
+  return delimiter == '\t' ? "tab" : delimiter == ',' ? "comma" : delimiter == ';' ? "semicolon" : "bar";
+}
+
+/// The course of a series in bars of eight heights.
+std::string sparkline_of(const std::vector<double>& values) {
+  constexpr std::array<const char*, 8> kBars = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  constexpr std::size_t kWidth = 24;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double range = *most - *least;
+  std::string line;
+  for (std::size_t i = 0; i < std::min(kWidth, values.size()); ++i) {
+    const double value =
+        values[i * (values.size() - 1) / std::max<std::size_t>(1, std::min(kWidth, values.size()) - 1)];
+    const double height = range > 0.0 ? (value - *least) / range : 0.0;
+    line += kBars[static_cast<std::size_t>(std::lround(7.0 * height))];
+  }
+  return line;
+}
+
+/// Rows of a block that belong to a part; all of them where the part was not read.
+std::vector<std::size_t> rows_of_part(const TableBlock& block, const TesterPart& part) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < block.rows(); ++row) {
+    const int line = static_cast<int>(block.lines[row]) + 1;
+    if (part.series.line.empty() || std::binary_search(part.series.line.begin(), part.series.line.end(), line))
+      rows.push_back(row);
+  }
+  return rows;
+}
+
+ListedColumn listed(const TableBlock& block, std::size_t column, const std::vector<std::size_t>& rows, char delimiter,
+                    const TesterPart& part) {
+  const ColumnName& name = block.columns[column];
+  ListedColumn shown{.heading = name.heading, .unit = bare_unit(name.unit), .quantity = {}, .sparkline = {}};
+  if (name.quantity) shown.quantity = to_string(*name.quantity);
+  for (const auto& taken : part.series.taken) shown.taken = shown.taken || (taken && taken->heading == name.heading);
+  const auto values = numbers_of(block, column, rows, delimiter);
+  if (!values || values->empty()) return shown;
+  const auto [least, most] = std::minmax_element(values->begin(), values->end());
+  shown.least = *least;
+  shown.most = *most;
+  shown.sparkline = sparkline_of(*values);
+  return shown;
+}
+
+ListedPart listed(const TesterPart& part, const ExportTables& tables) {
+  ListedPart shown{.name = part.name,
+                   .line = static_cast<int>(part.heading) + 1,
+                   .rows = part.series.line.size(),
+                   .columns = {},
+                   .decisions = part.series.decisions,
+                   .fault = {}};
+  if (part.fault) shown.fault = to_string(*part.fault);
+  for (const TableBlock& block : tables.blocks) {
+    if (block.heading != part.heading) continue;
+    const std::vector<std::size_t> rows = rows_of_part(block, part);
+    for (std::size_t i = 0; i < block.columns.size(); ++i) {
+      if (!block.columns[i].heading.empty()) shown.columns.push_back(listed(block, i, rows, tables.delimiter, part));
+    }
+  }
+  return shown;
+}
+
+}  // namespace
+
+tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, const std::string& file,
+                                                    const ColumnChoice& choice) {
+  const Result<DecodedText> text = decoded(bytes);
+  if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
+  const std::vector<std::string_view> lines = lines_of(text->text);
+  const auto tables = tables_of(lines, file, choice);
+  if (!tables) return tl::unexpected(tables.error());
+  const ExportParts parts = parts_of(*tables, choice, file);
+  ListedExport shown{.maker = maker_of(lines, tables->delimiter),
+                     .encoding = text->encoding,
+                     .delimiter = delimiter_in_words(tables->delimiter),
+                     .parts = {},
+                     .notes = parts.notes};
+  for (const TesterPart& part : parts.parts) shown.parts.push_back(listed(part, *tables));
+  return shown;
+}
+
+}  // namespace nacre::measurement

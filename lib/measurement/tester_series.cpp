@@ -1,0 +1,437 @@
+#include "measurement/tester_series.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "base/csv.hpp"
+#include "measurement/tester_numbers.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+constexpr double kDead = 1e-3;      // range of a dead channel over that of the widest
+constexpr double kHalfDay = 43200;  // s
+
+/// What is known of a column before it is chosen.
+struct Candidate {
+  std::size_t column = 0;
+  const ColumnName* name = nullptr;
+  int match = 0;               ///< of the name that the sheet gives
+  bool has_unit = false;       ///< one that the quantity has
+  bool is_dead = false;        ///< its numbers do not move, or it has hardly any
+  bool goes_back = false;      ///< a clock that does
+  bool is_clock_time = false;  ///< hh:mm:ss
+};
+
+class SeriesReader {
+ public:
+  SeriesReader(const TableBlock& block, const std::vector<std::size_t>& columns, const std::vector<std::size_t>& rows,
+               char delimiter, const ColumnChoice& choice, const std::string& file)
+      : block_(block), columns_(columns), rows_(rows), delimiter_(delimiter), choice_(choice), file_(file) {}
+
+  tl::expected<ColumnSeries, ImportFault> read() {
+    for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
+    for (const std::size_t row : rows_) {
+      if (delimiter_ != ',' || block_.cells_in(row) <= block_.columns.size() || !is_torn(row)) continue;
+      refuse_torn(row);
+      return tl::unexpected(*fault_);
+    }
+    find_marks();
+    const Quantity abscissa = choice_.strain.empty() ? Quantity::extension : Quantity::strain;
+    const Quantity ordinate = choice_.stress.empty() ? Quantity::force : Quantity::stress;
+    for (const Quantity quantity : {abscissa, ordinate}) {
+      take(quantity);
+      if (fault_) return tl::unexpected(*fault_);
+    }
+    for (const std::size_t column : columns_) {
+      const ColumnName& name = block_.columns[column];
+      if (name.quantity == Quantity::strain && choice_.strain.empty()) series_.strains.push_back(name.heading);
+    }
+    take_time();
+    if (fault_) return tl::unexpected(*fault_);
+    return std::move(series_);
+  }
+
+ private:
+  void reject(std::size_t line, std::string column, std::string reason) {
+    if (!fault_) fault_ = ImportFault{file_, static_cast<int>(line), std::move(column), std::move(reason)};
+  }
+
+  std::vector<std::string_view> cells_of_column(std::size_t column) const {
+    std::vector<std::string_view> cells;
+    cells.reserve(rows_.size());
+    for (const std::size_t row : rows_) cells.push_back(block_.cell(row, column));
+    return cells;
+  }
+
+  /// Whether the column may be taken for a quantity, so that its numbers matter.
+  bool matters(std::size_t column) const {
+    const ColumnName& name = block_.columns[column];
+    if (name.quantity && *name.quantity != Quantity::strain && *name.quantity != Quantity::stress) return true;
+    for (const Quantity quantity :
+         {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
+      if (match(name.heading, name.name, choice_.of(quantity)) > 0) return true;
+    }
+    return false;
+  }
+
+  /// The decimal mark of each column: its own, else that of the others, else that of the delimiter.
+  void find_marks() {
+    std::optional<DecimalMark> usual;
+    for (const std::size_t column : columns_) {
+      if (!matters(column)) continue;
+      const ColumnMark found = column_mark(cells_of_column(column));
+      if (found.contradiction > 0) {
+        const auto line_at = [&](std::size_t place) { return block_.lines[rows_[place]] + 1; };
+        contradiction_ = std::min(contradiction_, line_at(found.contradiction));
+        contradicted_ = line_at(found.first);
+        contradictory_.push_back(column);
+        continue;
+      }
+      marks_[column] = found.mark;
+      if (found.mark && !usual) usual = found.mark;
+    }
+    default_mark_ = usual.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma);
+    series_.decimal_mark = default_mark_ == DecimalMark::comma ? ',' : '.';
+  }
+
+  DecimalMark mark_of(std::size_t column) const {
+    const auto own = marks_.find(column);
+    return own == marks_.end() ? default_mark_ : own->second.value_or(default_mark_);
+  }
+
+  std::optional<double> value_at(std::size_t row, std::size_t column) const {
+    return instrument_number(block_.cell(row, column), mark_of(column));
+  }
+
+  /// Range of a column's numbers, and how many of its cells are none.
+  std::pair<double, std::size_t> range_of(std::size_t column) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    std::size_t others = 0;
+    for (const std::size_t row : rows_) {
+      const auto value = value_at(row, column);
+      if (!value) {
+        ++others;
+        continue;
+      }
+      least = std::min(least, *value);
+      most = std::max(most, *value);
+    }
+    return {most >= least ? most - least : 0.0, others};
+  }
+
+  bool has_unit(const ColumnName& name, Quantity quantity) const {
+    return !name.unit.empty() && unit_factor(quantity, name.unit).has_value();
+  }
+
+  std::vector<Candidate> candidates_for(Quantity quantity) const {
+    std::vector<Candidate> found;
+    const std::string& wanted = choice_.of(quantity);
+    int best_match = 0;
+    for (const std::size_t column : columns_) {
+      const ColumnName& name = block_.columns[column];
+      const int matched = match(name.heading, name.name, wanted);
+      if (wanted.empty() ? name.quantity != quantity : matched == 0) continue;
+      found.push_back({.column = column, .name = &name, .match = matched, .has_unit = has_unit(name, quantity)});
+      best_match = std::max(best_match, matched);
+    }
+    std::erase_if(found, [&](const Candidate& each) { return each.match < best_match; });
+    return found;
+  }
+
+  /// Marks the channels that do not move, against the one that moves most.
+  void find_dead(std::vector<Candidate>& candidates, Quantity quantity) const {
+    if (candidates.size() < 2) return;
+    std::vector<double> ranges;
+    for (Candidate& each : candidates) {
+      const auto [range, others] = range_of(each.column);
+      const double factor = each.has_unit ? unit_factor(quantity, each.name->unit).value_or(1.0) : 0.0;
+      each.is_dead = range == 0.0 || 2 * others > rows_.size();
+      ranges.push_back(each.is_dead || each.name->role != ColumnRole::measured ? 0.0 : range * factor);
+    }
+    const double widest = *std::max_element(ranges.begin(), ranges.end());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].has_unit && candidates[i].name->role == ColumnRole::measured && ranges[i] < kDead * widest)
+        candidates[i].is_dead = true;
+    }
+  }
+
+  static auto order_of(const Candidate& each) {
+    return std::tuple(each.is_dead, each.name->role, !each.has_unit, each.name->rank, each.column);
+  }
+
+  /// Why the one that was taken comes before another.
+  static std::string reason_for(const Candidate& taken, const Candidate& other) {
+    if (other.name->role == ColumnRole::set_point) return "a set point";
+    if (other.name->role == ColumnRole::lateral) return "across the specimen";
+    if (other.is_dead && !taken.is_dead) return "does not move";
+    if (other.name->role == ColumnRole::raw && taken.name->role != ColumnRole::raw) return "not calibrated";
+    if (taken.has_unit && !other.has_unit) return "has no unit";
+    if (other.goes_back && !taken.goes_back) return "goes back";
+    if (taken.name->rank < other.name->rank) return "less usual";
+    return "stands further right";
+  }
+
+  void say_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all, TakenColumn& column) {
+    std::vector<std::string> others;
+    for (const Candidate& other : all) {
+      if (other.column == taken.column) continue;
+      column.not_taken.push_back(other.name->heading);
+      others.push_back(fmt::format("`{}` ({})", other.name->heading,
+                                   taken.match > 0 ? "not named by the sheet" : reason_for(taken, other)));
+      if (taken.match == 0 && other.is_dead && !taken.is_dead && other.name->role == ColumnRole::measured)
+        series_.warnings.push_back(
+            fmt::format("{}: column `{}` does not move and is left out, `{}` is taken for the {}", file_,
+                        other.name->heading, taken.name->heading, to_string(quantity)));
+    }
+    for (const std::size_t i : columns_) {
+      const ColumnName& name = block_.columns[i];
+      const auto is_it = [&](const Candidate& each) { return each.column == i; };
+      if (name.quantity != quantity || std::any_of(all.begin(), all.end(), is_it)) continue;
+      column.not_taken.push_back(name.heading);
+      others.push_back(fmt::format("`{}` (not named by the sheet)", name.heading));
+    }
+    if (others.empty()) return;
+    series_.decisions.push_back(
+        fmt::format("{}: `{}` taken, not {}", to_string(quantity), taken.name->heading, fmt::join(others, ", ")));
+  }
+
+  std::vector<std::string> headings() const {
+    std::vector<std::string> names;
+    for (const std::size_t column : columns_) {
+      if (!block_.columns[column].heading.empty()) names.push_back(block_.columns[column].heading);
+    }
+    return names;
+  }
+
+  void take(Quantity quantity) {
+    std::vector<Candidate> all = candidates_for(quantity);
+    find_dead(all, quantity);
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+    const bool by_name = !choice_.of(quantity).empty();
+    const auto may_be_taken = [&](const Candidate& each) {
+      return by_name || (each.name->role != ColumnRole::set_point && each.name->role != ColumnRole::lateral);
+    };
+    // A channel that moves though nobody measured with it is worse than a dead measurement.
+    const auto taken = std::find_if(all.begin(), all.end(), may_be_taken);
+    if (taken == all.end()) return refuse_absent(quantity, all);
+    TakenColumn column{.heading = taken->name->heading, .gauge = taken->name->gauge};
+    say_choice(quantity, *taken, all, column);
+    if (!find_factor(quantity, *taken->name, column)) return;
+    if (std::count(contradictory_.begin(), contradictory_.end(), taken->column) > 0) {
+      return reject(contradiction_, "",
+                    fmt::format("decimal points and decimal commas in one file (line {} has the other mark), "
+                                "expected one of them throughout",
+                                contradicted_));
+    }
+    read_values(quantity, taken->column, column.factor);
+    series_.taken[static_cast<std::size_t>(quantity)] = std::move(column);
+  }
+
+  void refuse_absent(Quantity quantity, const std::vector<Candidate>& all) {
+    const std::string& wanted = choice_.of(quantity);
+    if (!wanted.empty()) {
+      return reject(block_.heading + 1, std::string(to_string(quantity)),
+                    fmt::format("no column `{}` among `{}`", wanted, fmt::join(headings(), "`, `")));
+    }
+    std::vector<std::string> others;
+    for (const Candidate& each : all) others.push_back(each.name->heading);
+    reject(
+        block_.heading + 1, std::string(to_string(quantity)),
+        fmt::format("no measured column of {}, but `{}`, a set point or across the specimen; expected {}_column in the "
+                    "sheet where one of them is meant",
+                    to_string(quantity), fmt::join(others, "`, `"), to_string(quantity)));
+  }
+
+  /// The unit of the heading, else that of the sheet, else none, which import_one() decides on.
+  bool find_factor(Quantity quantity, const ColumnName& name, TakenColumn& column) {
+    if (const auto factor = unit_factor(quantity, name.unit); factor && !name.unit.empty()) {
+      column.unit = name.unit;
+      column.factor = *factor;
+      return true;
+    }
+    const std::string units = choice_.unit;
+    for (std::size_t begin = 0; begin < units.size();) {
+      const std::size_t end = std::min(units.find_first_of(" ,;", begin), units.size());
+      const std::string unit = units.substr(begin, end - begin);
+      if (const auto factor = unit_factor(quantity, unit); factor && !unit.empty()) {
+        column.unit = unit;
+        column.factor = *factor;
+        column.unit_of_sheet = true;
+        series_.decisions.push_back(
+            fmt::format("{}: `{}` in {}, as the sheet says", to_string(quantity), name.heading, unit));
+        return true;
+      }
+      begin = end + 1;
+    }
+    if (name.unit.empty() || quantity == Quantity::time) return true;
+    reject(block_.unit_line + 1, name.heading,
+           fmt::format("`{}` is not a unit of {}, expected one of {}, or the column `unit` in the sheet", name.unit,
+                       to_string(quantity), expected_units(quantity)));
+    return false;
+  }
+
+  void read_values(Quantity quantity, std::size_t column, double factor) {
+    std::vector<double>& values = series_.of(quantity);
+    values.reserve(rows_.size());
+    for (const std::size_t row : rows_) {
+      const auto value = value_at(row, column);
+      if (!value) return refuse_value(quantity, row, column);
+      values.push_back(*value * factor);
+    }
+  }
+
+  void refuse_value(Quantity quantity, std::size_t row, std::size_t column) {
+    const std::string& heading = block_.columns[column].heading;
+    const std::size_t line = block_.lines[row] + 1, cells = block_.cells_in(row);
+    const std::string_view text = block_.cell(row, column);
+    if (column >= cells)
+      return reject(line, heading,
+                    fmt::format("the row has {} cells, expected {}; is the file cut off or edited?", cells,
+                                block_.columns.size()));
+    if (!looks_like_number(text))
+      return reject(
+          line, heading,
+          fmt::format("`{}` is not a number, expected {}; is the file cut off or edited?", text, to_string(quantity)));
+    reject(line, heading,
+           fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
+                       mark_of(column) == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
+  }
+
+  /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
+  bool is_torn(std::size_t row) const {
+    for (std::size_t i = block_.columns.size(); i < block_.cells_in(row); ++i) {
+      if (looks_like_number(block_.cell(row, i))) return true;
+    }
+    return false;
+  }
+  void refuse_torn(std::size_t row) {
+    reject(block_.lines[row] + 1, "",
+           fmt::format("has {} cells, expected {}: decimal commas in a comma-separated file?", block_.cells_in(row),
+                       block_.columns.size()));
+  }
+
+  /// Seconds of the day or of a duration, past midnight, too.
+  std::optional<std::vector<double>> clock_times(std::size_t column) const {
+    std::vector<double> times;
+    for (const std::size_t row : rows_) {
+      auto seconds = clock_seconds(block_.cell(row, column));
+      if (!seconds) return std::nullopt;
+      while (!times.empty() && *seconds < times.back() - kHalfDay) *seconds += 2.0 * kHalfDay;
+      times.push_back(*seconds);
+    }
+    if (!times.empty()) {
+      const double first = times.front();
+      for (double& time : times) time -= first;
+    }
+    return times;
+  }
+
+  std::optional<std::vector<double>> times_in(std::size_t column) const {
+    if (!rows_.empty() && clock_seconds(block_.cell(rows_.front(), column))) return clock_times(column);
+    std::vector<double> times;
+    for (const std::size_t row : rows_) {
+      const auto value = value_at(row, column);
+      if (!value) return std::nullopt;
+      times.push_back(*value);
+    }
+    return times;
+  }
+
+  /// The clock is not needed for the curve: one that cannot be read is left out with a word, unless the sheet names it.
+  void take_time() {
+    std::vector<Candidate> all = candidates_for(Quantity::time);
+    const bool by_name = !choice_.time.empty();
+    if (all.empty() && by_name) return refuse_absent(Quantity::time, all);
+    std::map<std::size_t, std::vector<double>> times;
+    for (Candidate& each : all) {
+      auto values = times_in(each.column);
+      if (!values) {
+        each.is_dead = true;
+        continue;
+      }
+      each.is_clock_time = !rows_.empty() && clock_seconds(block_.cell(rows_.front(), each.column)).has_value();
+      each.goes_back = !std::is_sorted(values->begin(), values->end());
+      each.is_dead = values->size() > 1 && values->front() == values->back() && !each.goes_back;
+      times.emplace(each.column, std::move(*values));
+    }
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+      const auto order = [](const Candidate& each) {
+        return std::tuple(each.goes_back, each.is_dead, each.name->rank, !each.has_unit && !each.is_clock_time,
+                          each.column);
+      };
+      return order(a) < order(b);
+    });
+    if (all.empty()) return;
+    const Candidate& taken = all.front();
+    const auto values = times.find(taken.column);
+    if (values == times.end()) return leave_out_time(taken, by_name);
+    TakenColumn column{.heading = taken.name->heading};
+    say_choice(Quantity::time, taken, all, column);
+    if (taken.is_clock_time) {
+      column.unit = "h:min:s";
+    } else {
+      find_factor(Quantity::time, *taken.name, column);
+      for (double& time : values->second) time *= column.factor;
+    }
+    series_.of(Quantity::time) = std::move(values->second);
+    series_.taken[static_cast<std::size_t>(Quantity::time)] = std::move(column);
+  }
+
+  void leave_out_time(const Candidate& clock, bool by_name) {
+    for (const std::size_t row : rows_) {
+      const std::string_view cell = block_.cell(row, clock.column);
+      if (value_at(row, clock.column) || clock_seconds(cell)) continue;
+      const std::string reason = fmt::format("`{}` is neither a number nor a time", cell);
+      if (by_name) return reject(block_.lines[row] + 1, clock.name->heading, reason + ", expected time");
+      series_.warnings.push_back(fmt::format("{}:{}: column `{}`: {}; the clock is not used", file_,
+                                             block_.lines[row] + 1, clock.name->heading, reason));
+      return;
+    }
+  }
+
+  const TableBlock& block_;
+  const std::vector<std::size_t>& columns_;
+  const std::vector<std::size_t>& rows_;
+  char delimiter_;
+  const ColumnChoice& choice_;
+  const std::string& file_;
+  ColumnSeries series_;
+  std::map<std::size_t, std::optional<DecimalMark>> marks_;
+  std::vector<std::size_t> contradictory_;
+  std::size_t contradiction_ = static_cast<std::size_t>(-1), contradicted_ = 0;
+  DecimalMark default_mark_ = DecimalMark::point;
+  std::optional<ImportFault> fault_;
+};
+
+}  // namespace
+
+std::optional<std::vector<double>> numbers_of(const TableBlock& block, std::size_t column,
+                                              const std::vector<std::size_t>& rows, char delimiter) {
+  std::vector<std::string_view> cells;
+  for (const std::size_t row : rows) cells.push_back(block.cell(row, column));
+  const DecimalMark mark = column_mark(cells).mark.value_or(delimiter == ',' ? DecimalMark::point : DecimalMark::comma);
+  std::vector<double> values;
+  for (const std::string_view cell : cells) {
+    auto value = instrument_number(cell, mark);
+    if (!value) value = clock_seconds(cell);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+tl::expected<ColumnSeries, ImportFault> series_of(const TableBlock& block, const std::vector<std::size_t>& columns,
+                                                  const std::vector<std::size_t>& rows, char delimiter,
+                                                  const ColumnChoice& choice, const std::string& file) {
+  return SeriesReader(block, columns, rows, delimiter, choice, file).read();
+}
+
+}  // namespace nacre::measurement
