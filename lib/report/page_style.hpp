@@ -82,6 +82,7 @@ section { margin-top: 48px; padding-top: 22px; border-top: 1px solid var(--rule)
 code { font: 0.9em ui-monospace, "DejaVu Sans Mono", Menlo, monospace; }
 .eyebrow { color: var(--quiet); font-size: 13px; letter-spacing: 0.04em; margin: 0 0 4px; }
 .best { display: flex; flex-wrap: wrap; gap: 22px; align-items: center; margin: 0 0 18px; }
+.best > div { flex: 1 1 420px; }
 .best p { margin: 0 0 4px; }
 .best .gain { font-size: 24px; line-height: 1.3; font-weight: 600; }
 .standing { font-size: 18px; }
