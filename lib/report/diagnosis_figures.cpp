@@ -47,9 +47,12 @@ std::vector<double> abscissae(const Diagnosis& d, const ContrastView& view,
   return xs;
 }
 
+bool is_orientation(const ContrastView& view) { return view.against == "orientation"; }
+
 std::string abscissa_label(const ContrastView& view) {
   if (view.against == diagnosis::kPredictedLevel) return fmt::format("{} predicted, MPa", in_words(view.feature));
-  return view.against + (view.against == "strain rate" ? " (log of 1/s)" : "");
+  const std::string unit = view.against == "strain rate" ? " (log of 1/s)" : is_orientation(view) ? " (degrees)" : "";
+  return view.against + unit;
 }
 
 Range padded(std::vector<double> values) {
@@ -82,7 +85,8 @@ std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contr
              .x_label = abscissa_label(view),
              .y_label = unit_of(view.feature),
              .x = padded(xs),
-             .y = padded(ys)});
+             .y = padded(ys),
+             .x_ticks = is_orientation(view) ? std::vector<double>{0.0, 90.0} : std::vector<double>{}});
   plot.zero_line();
   plot.error_bars(xs, bars, Ink::measured);
   plot.dots(base, Ink::measured, "base model", hints);

@@ -102,26 +102,28 @@ table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabula
 th { text-align: right; font-weight: 600; color: var(--quiet); padding: 4px 10px;
   border-bottom: 1px solid var(--rule); vertical-align: bottom; }
 th[title] { text-decoration: underline dotted; text-underline-offset: 3px; cursor: help; }
-td { text-align: right; padding: 4px 10px; border-bottom: 1px solid var(--grid); vertical-align: middle; }
+td { text-align: right; padding: 4px 10px; border-bottom: 1px solid var(--grid); vertical-align: middle;
+  white-space: nowrap; }
 th.group { text-align: center; }
 table.words td, table.words th { text-align: left; }
-td:first-child, th:first-child { text-align: left; padding-left: 0; white-space: nowrap; }
+td:first-child, th:first-child { text-align: left; padding-left: 0; }
+table.named td:nth-child(2), table.named th:nth-child(2) { text-align: left; }
 tr.reference td { color: var(--quiet); }
 tr.first-reference td { border-top: 1px solid var(--rule); }
 tr.aside td { color: var(--quiet); }
 thead tr + tr th:first-child { text-align: right; padding-left: 10px; }
-table.words td { white-space: nowrap; }
 table.words code.long { display: inline-block; width: 36ch; white-space: normal; overflow-wrap: anywhere; }
 table.words td:last-child { white-space: normal; min-width: 18ch; overflow-wrap: anywhere; }
 table.wrapped th, table.wrapped td { white-space: normal; vertical-align: top; }
 table.wrapped td:last-child { white-space: nowrap; min-width: 0; }
+.sentence { display: inline-block; width: 44ch; white-space: normal; text-align: left; }
 strong.bad { color: var(--bad); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(420px, 100%), 1fr)); gap: 14px; }
 .card { display: flex; gap: 14px; padding: 12px; background: var(--panel); border: 1px solid var(--rule);
   border-radius: 6px; font-size: 14px; }
 .card p { margin: 0 0 4px; }
 .card table { font-size: 13px; margin: 2px 0 6px; }
-.card td, .card th { padding: 1px 8px; border: 0; white-space: nowrap; }
+.card td, .card th { padding: 1px 8px; border: 0; }
 .card > div { min-width: 0; }
 @media print {
   section { break-inside: auto; }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "report/report_data.hpp"
 
 namespace nacre::report {
@@ -51,9 +52,9 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
                   is_modulus ? "E in GPa" : "T in MPa"));
   if (missing > 0)
     exhibit.notes.push_back(
-        fmt::format("–: {} pairs of design and model were not simulated in this run. The thesis simulates all "
+        fmt::format("–: {} of design and model {} not simulated in this run. The thesis simulates all "
                     "measured designs with its first model, a game of nacre only those that it needs.",
-                    missing));
+                    counted(missing, "pair"), missing == 1 ? "was" : "were"));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }

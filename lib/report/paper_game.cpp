@@ -54,8 +54,16 @@ std::optional<double> thesis_hypervolume(const PaperSource& source, int round) {
 }
 
 Cell equilibrium_cell(const wire::RoundSummary& s) {
-  return {(s.equilibrium ? "reached: " : "not reached: ") + escaped(s.decided_by),
+  return {fmt::format("<span class=\"sentence\">{}: {}</span>", s.equilibrium ? "reached" : "not reached",
+                      escaped(s.decided_by)),
           s.equilibrium ? "yes: " + s.decided_by : s.decided_by};
+}
+
+/// A figure that says something only once a pattern is measured: shown as a dash before.
+Cell measured_cell(const wire::RoundSummary& s, double value) {
+  Cell cell = number_cell(value);
+  if (s.measured_hypervolume_staircase <= 0.0) cell.shown = "–";
+  return cell;
 }
 
 ExhibitTable hypervolume_data(const PaperSource& source) {
@@ -73,9 +81,9 @@ ExhibitTable hypervolume_data(const PaperSource& source) {
   for (const auto& [number, round] : source.run.rounds) {
     if (!round.summary) continue;
     const wire::RoundSummary& s = *round.summary;
-    table.add({text_cell(std::to_string(number)), number_cell(s.measured_hypervolume_staircase),
-               number_cell(s.hypervolume_error), number_cell(s.gamut_hypervolume_staircase), number_cell(s.gap),
-               number_cell(s.signed_gap), equilibrium_cell(s)});
+    table.add({text_cell(std::to_string(number)), measured_cell(s, s.measured_hypervolume_staircase),
+               measured_cell(s, s.hypervolume_error), number_cell(s.gamut_hypervolume_staircase),
+               measured_cell(s, s.gap), measured_cell(s, s.signed_gap), equilibrium_cell(s)});
   }
   for (int round = 0; round <= 4; ++round) {
     const auto measured = thesis_hypervolume(source, round);

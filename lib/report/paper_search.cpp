@@ -57,7 +57,8 @@ std::string growth_figure(int round, const std::vector<std::vector<PlotPoint>>& 
              .width = 400,
              .height = 280});
   if (searches.size() > 1) plot.band(low, high, Ink::simulated, "range");
-  plot.line(mean, Ink::simulated, Stroke::solid, fmt::format("mean of {} searches", searches.size()));
+  plot.line(mean, Ink::simulated, Stroke::solid,
+            searches.size() == 1 ? "one search" : fmt::format("mean of {} searches", searches.size()));
   return plot.svg();
 }
 

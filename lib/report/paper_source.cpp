@@ -172,7 +172,7 @@ void find_groups(const fs::path& run_dir, PaperSource& source) {
   for (const MeasuredPattern& each : measured_patterns(source.run, newest_round(source.run).value_or(0)))
     measured.push_back({each.pattern, each.mean});
   source.groups = families::proposed_families(families::near_pareto(measured));
-  source.groups_from = "families proposed just now by pattern and properties";
+  source.groups_from = "the families that nacre proposes for the measured patterns";
 }
 
 pattern::Pattern pattern_in(const NamedTable& table, std::size_t row) {

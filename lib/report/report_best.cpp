@@ -42,12 +42,19 @@ const ComparedDesign& best_of(const std::vector<ComparedDesign>& front) {
 
 std::string gain_in_words(const ComparedDesign& best) {
   if (!best.gain.toughness) return "The toughest pattern; no mixture of equal stiffness has been measured";
+  if (*best.gain.toughness < 1.0)
+    return fmt::format(
+        "No pattern beats a mixture yet: the best has {:.2f} times the toughness of a mixture of equal "
+        "stiffness",
+        *best.gain.toughness);
   return fmt::format("{:.2f} times the toughness of a mixture of equal stiffness", *best.gain.toughness);
 }
 
 std::string times(const std::optional<double>& factor, std::string_view otherwise) {
   return factor ? fmt::format("{:.2f}×", *factor) : std::string(otherwise);
 }
+
+std::string strong(const std::string& html) { return fmt::format("<strong>{}</strong>", html); }
 
 std::string modulus_of(const MeasuredPattern& m) {
   return with_error(m.mean.modulus_pa * 1e-9, m.modulus_sd_pa * 1e-9);
@@ -92,7 +99,7 @@ std::string best_design(const store::RunRecord& run) {
       "<div class=\"best\">{}<div>\n<p class=\"eyebrow\">Best of {} measured {}</p>\n<p class=\"gain\">{}</p>\n"
       "<p>E = {} GPa, T = {} MPa; pattern {}, {:.0f} % rigid, measured in round {}</p>\n"
       "<p class=\"quiet\">Pictures show one unit of 20 × 20 pixels: {}. A <em>mixture</em> has droplets of both inks "
-      "placed at random. ± : standard deviation of the replicates. The best design of the thesis has {:.2f} times "
+      "placed at random. ±: standard deviation of the replicates. The best design of the thesis has {:.2f} times "
       "the toughness of its mixture.</p>\n</div></div>\n",
       design_picture(m.pattern, kPictureOfBest), count, count == 1 ? "pattern" : "patterns", gain_in_words(best),
       modulus_of(m), toughness_of(m), design_name(m.pattern.key()), 100.0 * m.pattern.rigid_fraction(), m.round,
@@ -117,10 +124,10 @@ Exhibit best_exhibit(const store::RunRecord& run) {
     exhibit.notes.push_back(awaited("the measured line of homogeneous mixtures, which the designs are compared with"));
   } else {
     exhibit.notes.push_back(fmt::format(
-        "Largest gains: <strong>{}</strong> in E at the same T (thesis, Table 3.3: {:.2f}×), <strong>{}</strong> in T "
-        "at the same E (thesis: {:.2f}×).",
-        times(best_modulus, "none to give"), kThesisModulusGain, times(best_toughness, "none to give"),
-        kThesisToughnessGain));
+        "Largest gain in T over a mixture of the same E: {} (thesis, Table 3.3: {:.2f}×). Largest gain in E over a "
+        "mixture of the same T: {} (thesis: {:.2f}×).",
+        strong(times(best_toughness, "none, no mixture can be compared with")), kThesisToughnessGain,
+        strong(times(best_modulus, "none, no mixture can be compared with")), kThesisModulusGain));
   }
   exhibit.tables.push_back(std::move(table));
   exhibit.fine_print.push_back(

@@ -36,6 +36,7 @@ ExhibitTable candidate_table(const std::vector<store::RecordedCandidate>& candid
            "How much chi squared falls when the effect joins the refitted base model"},
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
           {"", "imitated by base model", "Share of the effect's signature that refitted base parameters imitate"}}};
+  table.look = "named";
   for (const store::RecordedCandidate& c : candidates) {
     const bool was_fitted = c.status != "not_applicable";
     const std::string status = escaped(status_in_words(c.status));

@@ -52,7 +52,7 @@ std::string equilibrium_in_words(const wire::RoundSummary& s) {
   const std::string reached = s.equilibrium ? "Equilibrium is reached" : "Equilibrium is not reached";
   if (s.decided_by.empty()) return reached + ".";
   if (!s.last) return fmt::format("{}: {}.", reached, escaped(s.decided_by));
-  return fmt::format("Why the game ended: {}. {}.", escaped(s.decided_by), reached);
+  return fmt::format("<strong>Why the game ended</strong>: {}. {}.", escaped(s.decided_by), reached);
 }
 
 /// Third: what the newest diagnosis says.
@@ -60,7 +60,7 @@ std::string diagnosis_in_words(const store::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
     const std::string against = store::misfit_beside_verdict(round->second);
-    return fmt::format("<a href=\"#diagnosis\">Diagnosis</a> of round {}: {}.{}", round->first,
+    return fmt::format("Diagnosis of round {}: {}.{}", round->first,
                        escaped(verdict_in_words(round->second.diagnosis->verdict)),
                        against.empty() ? "" : " " + escaped(against));
   }
@@ -73,10 +73,8 @@ std::string standing_sentences(const store::RunRecord& run) {
   const auto closed = newest_closed_round(run);
   if (!closed) return paragraph(awaited("the end of round 0, with the first model, gamut and proposals"));
   const wire::RoundSummary& summary = *run.rounds.at(*closed).summary;
-  return paragraph(fmt::format("{} {} {}", fronts_in_words(*closed, summary), equilibrium_in_words(summary),
-                               diagnosis_in_words(run)),
-                   "standing") +
-         fidelity_words(summary.fidelity);
+  return paragraph(fronts_in_words(*closed, summary), "standing") + paragraph(equilibrium_in_words(summary)) +
+         paragraph(diagnosis_in_words(run)) + fidelity_words(summary.fidelity);
 }
 
 std::string machine_in_words(const store::RunRecord& run) {

@@ -291,7 +291,7 @@ std::string Plot::axes_svg() const {
     text += fmt::format("<path class=\"grid\" d=\"M{} {:.1f}h{}\"/>", kLeft, y, width);
     text += text_at(kLeft - 6, y + 3.5, "tick end", tick_text(tick, y_ticks));
   }
-  std::vector<double> x_ticks = round_ticks(axes_.x, width / kTickSpacingX);
+  std::vector<double> x_ticks = axes_.x_ticks.empty() ? round_ticks(axes_.x, width / kTickSpacingX) : axes_.x_ticks;
   if (axes_.whole_numbers_x) std::erase_if(x_ticks, [](double t) { return std::abs(t - std::round(t)) > 1e-6; });
   for (const double tick : x_ticks) {
     const double x = kLeft + px(tick);

@@ -51,8 +51,9 @@ struct Axes {
   std::string title;
   std::string x_label, y_label;
   Range x, y;
-  int width = 350, height = 290;  ///< px, legend not counted
-  bool whole_numbers_x = false;   ///< ticks at whole numbers only (rounds)
+  int width = 350, height = 290;     ///< px, legend not counted
+  bool whole_numbers_x = false;      ///< ticks at whole numbers only (rounds)
+  std::vector<double> x_ticks = {};  ///< where they are not to be chosen
 };
 
 /// Marks are drawn in the order of the calls and clipped to the axes; points that are not finite are left out. `label`

@@ -146,10 +146,10 @@ void print_fit(std::string_view what, const sysid::GoodnessOfFit& fit) {
 void print_errors(const std::string& name, const sysid::PredictionErrors& before,
                   const sysid::PredictionErrors& after) {
   const auto percent = [](int count, double error) { return count > 0 ? fmt::format("{:.1f} %", 100.0 * error) : "-"; };
-  fmt::print("{:<16} E {:>8} -> {:>8} ({} designs)   T {:>8} -> {:>8} ({} designs)\n", name,
+  fmt::print("{:<16} E {:>8} -> {:>8} ({})   T {:>8} -> {:>8} ({})\n", name,
              percent(before.modulus_count, before.modulus_mean), percent(after.modulus_count, after.modulus_mean),
-             after.modulus_count, percent(before.toughness_count, before.toughness_mean),
-             percent(after.toughness_count, after.toughness_mean), after.toughness_count);
+             counted(after.modulus_count, "design"), percent(before.toughness_count, before.toughness_mean),
+             percent(after.toughness_count, after.toughness_mean), counted(after.toughness_count, "design"));
 }
 
 /// Cautions that the numbers do not show by themselves.

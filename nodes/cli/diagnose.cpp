@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "base/counted.hpp"
 #include "base/files.hpp"
@@ -50,19 +51,27 @@ std::string conditions_in_words(const tester::TestConditions& c) {
 
 std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
 
-/// One line per candidate effect under headings; the page of --report explains each column.
+/// One line per candidate effect under headings, which the page of --report explains; then those that do not apply.
 void print_candidates(const diagnosis::Diagnosis& d) {
-  if (d.candidates.empty()) return;
   constexpr const char* kHeadings = "  {:<34} {:<26} {:>18} {:>7} {:>9} {:>6}  {}\n";
-  fmt::print(kHeadings, "candidate effect", "status", "improvement of fit", "chance", "imitated", "SNR",
-             "visible from");
-  fmt::print(kHeadings, "", "", "(chi squared)", "", "by base", "", "");
+  std::string unseen;
+  bool is_first = true;
   for (const diagnosis::CandidateEffect& c : d.candidates) {
+    if (c.status == "not_applicable") {
+      unseen += (unseen.empty() ? "" : ", ") + material::effect_in_words(c.name);
+      continue;
+    }
+    if (std::exchange(is_first, false)) {
+      fmt::print(kHeadings, "candidate effect", "status", "improvement of fit", "chance", "imitated", "SNR",
+                 "visible from");
+      fmt::print(kHeadings, "", "", "(chi squared)", "", "by base", "", "");
+    }
     const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
     fmt::print("  {:<34} {:<26} {:>18.1f} {:>7.4f} {:>7.0f} % {:>6.1f}  {}{}\n", material::effect_in_words(c.name),
                report::status_in_words(c.status), c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
                size_or_dash(c.smallest_seen), c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
+  if (!unseen.empty()) fmt::print("  does not apply, these tests cannot show it: {}\n", unseen);
 }
 
 /// What the residuals follow, and which tests would tell more.

@@ -174,6 +174,20 @@ nlohmann::ordered_json to_json(const SimulatedSpecimen& specimen) {
   return entry;
 }
 
+std::string_view in_words(tester::EndReason reason) {
+  switch (reason) {
+    case tester::EndReason::stress_drop:
+      return "the specimen separated";
+    case tester::EndReason::strain_limit:
+      return "unbroken at the largest strain";
+    case tester::EndReason::no_failure:
+      return "the soft material did not break";
+    case tester::EndReason::step_limit:
+      return "unbroken at the last step";
+  }
+  return "";
+}
+
 void print_table(const std::vector<SimulatedSpecimen>& specimens) {
   fmt::print("{:<24} {:>10} {:>10} {:>10} {:>14}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa",
              "failure strain", "how the test ended");
@@ -187,7 +201,7 @@ void print_table(const std::vector<SimulatedSpecimen>& specimens) {
     if (specimen.toughness) {
       const tester::ToughnessResult& result = **specimen.toughness;
       fmt::print(" {:>10} {:>10.3f} {:>14.4f}  {} after {} steps", shown(1e-6 * result.toughness_pa),
-                 1e-6 * result.peak_stress_pa, result.failure_strain, tester::to_string(result.end), result.steps);
+                 1e-6 * result.peak_stress_pa, result.failure_strain, in_words(result.end), result.steps);
     }
     fmt::print("\n");
   }

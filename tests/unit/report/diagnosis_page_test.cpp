@@ -94,6 +94,23 @@ TEST(DiagnosisPage, ShowsTheStrongestTrendsFirst) {
   EXPECT_THAT(page, HasSubstr("modulus predicted, MPa"));
 }
 
+TEST(DiagnosisPage, OrientationHasTicksAtUprightAndTurned) {
+  Diagnosis d = named_with({});
+  d.descriptors = {"orientation"};
+  for (const double x : {0.0, 90.0, 90.0}) {
+    diagnosis::ResidualRow row;
+    row.measured = 20.0 + 0.01 * x;
+    row.base = row.extended = 20.0;
+    row.standard_error = 0.01;
+    row.descriptors = {x};
+    d.residuals.push_back(row);
+  }
+  d.contrasts = {{"orientation", {Feature::log_modulus, tester::TestKind::modulus, "orientation"}, 7.0, 0.0}};
+  const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
+  EXPECT_THAT(page, AllOf(HasSubstr("class=\"tick middle\">0</text>"), HasSubstr("class=\"tick middle\">90</text>"),
+                          Not(HasSubstr("class=\"tick middle\">50</text>"))));
+}
+
 TEST(DiagnosisPage, BarsEndAtOneStandardErrorOfTheLogarithm) {
   Diagnosis d = named_with({});
   d.descriptors = {"rigid fraction"};

@@ -84,6 +84,13 @@ TEST(Report, WithoutMixturesTheToughestPatternIsCalledThat) {
                           Not(HasSubstr("times the toughness of a mixture of equal"))));
 }
 
+TEST(Report, AGameWithoutAGainSaysSo) {
+  store::RunRecord run = sample::run();
+  for (auto& [number, round] : run.rounds)
+    for (optimize::Performance& mixture : round.benchmark) mixture.toughness_pa *= 10.0;
+  EXPECT_THAT(head_of(render_report(run, "a-run")), HasSubstr("No pattern beats a mixture yet: the best has 0."));
+}
+
 TEST(Report, HeadingsOfTablesAreWordsWithAHint) {
   const std::string page = render_report(sample::run(), "a-run");
   EXPECT_THAT(section_of(page, "errors"),
@@ -113,7 +120,7 @@ TEST(Report, HeadSaysWhereTheGameStands) {
   EXPECT_THAT(
       head, AllOf(HasSubstr("a-run"), HasSubstr("Round 3"), HasSubstr("0.900 ± 0.030"), HasSubstr("the game is over")));
   EXPECT_THAT(head, AllOf(HasSubstr("Equilibrium is not reached"),
-                          ContainsRegex("Why the game ended: [^.]*0.150 GPa MPa is more than twice the error"),
+                          ContainsRegex("Why the game ended</strong>: [^.]*0.150 GPa MPa is more than twice the error"),
                           HasSubstr("a cause is named")));
 }
 
