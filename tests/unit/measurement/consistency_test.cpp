@@ -89,7 +89,7 @@ TEST(Replicates, OneThatBreaksEarlyIsProposedWithItsReasonAndNotDropped) {
   for (const OutlierReason& reason : outlier.reasons) reasons += reason.kind + ": " + reason.text + "\n";
   EXPECT_THAT(reasons, HasSubstr("toughness: its toughness is 78 % below the others'"));
   EXPECT_THAT(reasons, HasSubstr("peak: its peak is 46 % below"));
-  EXPECT_THAT(reasons, HasSubstr("curve: its curve is"));
+  EXPECT_THAT(reasons, HasSubstr("curve: its curve differs"));
   EXPECT_EQ(groups[0].valid.size(), 4U) << "a person decides";
   EXPECT_GT(groups[0].scatter, 4 * groups[0].scatter_without);
   EXPECT_EQ(groups[0].state, GroupState::complete);

@@ -191,7 +191,7 @@ TEST_F(ImportedSet, ANotchedSpecimenThatWasUnloadedWholeIsKeptAsNotValid) {
       this->import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,3.2,54\n");
   ASSERT_EQ(import.specimens.size(), 1U);
   EXPECT_FALSE(import.specimens[0].record.valid);
-  EXPECT_THAT(import.specimens[0].record.note, HasSubstr("not separated: the strain goes back"));
+  EXPECT_THAT(import.specimens[0].record.note, HasSubstr("not separated: the strain returns"));
 }
 
 TEST_F(ImportedSet, TheModulusOfABarComesFromTheColumnThatTheSheetNames) {
@@ -305,7 +305,7 @@ TEST_F(ImportedSet, ATestIsOneSpecimen) {
 TEST_F(ImportedSet, APatternThatIsNoRegularFileIsRefusedAndNotWaitedFor) {
   const Import imported = import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,s1,/dev/stdin,10,3,50\n");
   ASSERT_FALSE(imported.rejected.empty());
-  EXPECT_THAT(to_string(imported.rejected.front()), HasSubstr("no regular file"));
+  EXPECT_THAT(to_string(imported.rejected.front()), HasSubstr("not a regular file"));
 }
 
 TEST_F(ImportedSet, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {

@@ -316,7 +316,7 @@ TEST_F(SetOnDisk, BadCurvesAreRejectedWithPlaceInTheirFile) {
                {"strain;stress_pa\n", "strain,stress_pa"},
                {"strain,stress_pa\n0,0\n1,1\n2,2\n3,3\n", "has 4 rows"},
                {"strain,stress_pa\n0,0\n1,nan\n2,2\n3,3\n4,4\n", "c.csv:3:3: column stress_pa"},
-               {"strain,stress_pa\n0,0\n1\n2,2\n3,3\n4,4\n", "c.csv:3: column stress_pa: nothing there"},
+               {"strain,stress_pa\n0,0\n1\n2,2\n3,3\n4,4\n", "c.csv:3: column stress_pa: the cell is empty"},
                {"strain,stress_pa\n0,0\n-1,0\n2,2\n3,3\n4,4\n", "above -1"},
                {"strain,strain,stress_pa\n", "twice"},
                {"strain,stress_pa\n0,0\n101,0\n2,2\n3,3\n4,4\n", "c.csv:3: 0 Pa at strain 101"},
