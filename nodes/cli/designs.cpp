@@ -20,18 +20,24 @@ struct DesignsOptions {
   bool json = false;
 };
 
+/// A line of the table, without blanks at its end.
+template <class... Cells>
+void print_line(const Cells&... cells) {
+  std::string line = fmt::format("{:16}  {:18}  {:>7}  {:>7}  {:>8}  {:>5}  {:10}  {}", cells...);
+  line.erase(line.find_last_not_of(' ') + 1);
+  fmt::print("{}\n", line);
+}
+
 /// A line for each design, its specimens counted; then what waits for a person.
 void print_designs(const std::vector<game::DesignState>& states, bool waits_for_approval) {
-  constexpr const char* kLine = "{:16}  {:18}  {:>7}  {:>7}  {:>8}  {:>5}  {:10}  {}\n";
   if (!states.empty())
-    fmt::print(kLine, "design", "state", "ordered", "printed", "measured", "valid", "proposed", "decided by");
+    print_line("design", "state", "ordered", "printed", "measured", "valid", "proposed", "decided by");
   int waiting = 0;
   for (const game::DesignState& state : states) {
     if (state.stage == game::DesignStage::pending) ++waiting;
-    fmt::print(kLine, state.design.name(), stage_in_words(state.stage, waits_for_approval), state.ordered,
-               state.printed, state.arrived, state.valid,
-               state.round < 0 ? "-" : fmt::format("in round {}", state.round),
-               state.decided_by.empty() ? "-" : fmt::format("{}: {}", state.decided_by, state.why));
+    print_line(state.design.name(), stage_in_words(state.stage, waits_for_approval), state.ordered, state.printed,
+               state.arrived, state.valid, state.round < 0 ? "" : fmt::format("in round {}", state.round),
+               state.decided_by.empty() ? "" : fmt::format("{}: {}", state.decided_by, state.why));
   }
   if (waits_for_approval && waiting > 0) fmt::print("{}\n", waiting_in_words(waiting));
 }
