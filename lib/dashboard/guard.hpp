@@ -10,9 +10,9 @@
 namespace nacre::dashboard {
 
 struct AccessRules {
-  /// The server's names in a Host header, with its port; one without a port passes with any. Any other name belongs to a
-  /// foreign page whose name was made to point here (DNS rebinding). `localhost`, `127.0.0.1` and `[::1]` pass with any
-  /// port, as a tunnel has its own; an address (digits, dots, colons, brackets) passes when a token is required.
+  /// The server's names in a Host header, with its port; one without a port passes with any. Any other name belongs to
+  /// a foreign page whose name was made to point here (DNS rebinding). `localhost`, `127.0.0.1` and `[::1]` pass with
+  /// any port, as a tunnel has its own; an address (digits, dots, colons, brackets) passes when a token is required.
   std::vector<std::string> hosts;
   std::string token;        ///< empty: anybody who reaches the port may look
   std::string cookie_name;  ///< under which a browser keeps the token

@@ -48,7 +48,7 @@ std::vector<std::size_t> rows_of_part(const TableBlock& block, const TesterPart&
 ListedColumn listed(const TableBlock& block, std::size_t column, const std::vector<std::size_t>& rows, char delimiter,
                     const TesterPart& part) {
   const ColumnName& name = block.columns[column];
-  ListedColumn shown{.heading = name.heading, .unit = bare_unit(name.unit), .quantity = {}, .sparkline = {}};
+  ListedColumn shown{.heading = name.heading, .unit = unit_as_written(name.unit), .quantity = {}, .sparkline = {}};
   if (name.quantity) shown.quantity = to_string(*name.quantity);
   for (const auto& taken : part.series.taken) shown.taken = shown.taken || (taken && taken->heading == name.heading);
   const auto values = numbers_of(block, column, rows, delimiter);
@@ -71,7 +71,7 @@ ListedPart listed(const TesterPart& part, const ExportTables& tables) {
   for (const TableBlock& block : tables.blocks) {
     if (block.heading != part.heading) continue;
     const std::vector<std::size_t> rows = rows_of_part(block, part);
-    for (std::size_t i = 0; i < block.columns.size(); ++i) {
+    for (const std::size_t i : part.columns) {
       if (!block.columns[i].heading.empty()) shown.columns.push_back(listed(block, i, rows, tables.delimiter, part));
     }
   }

@@ -219,7 +219,7 @@ std::map<std::string, std::string> provenance_of(const TesterRecord& from, const
     const auto& column = from.column(quantity);
     if (!column) continue;
     cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
-    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit.empty() ? "none" : bare_unit(column->unit);
+    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit.empty() ? "none" : unit_as_written(column->unit);
     cells[fmt::format("{}_not_taken", to_string(quantity))] = fmt::format("{}", fmt::join(column->not_taken, "; "));
   }
   return cells;

@@ -221,6 +221,12 @@ std::string bare_unit(std::string_view unit) {
   return std::string(trimmed(bare));
 }
 
+std::string unit_as_written(std::string_view unit) {
+  std::string written(trimmed(unit));
+  std::erase_if(written, [](char c) { return std::string_view("()[]{}<>").find(c) != std::string_view::npos; });
+  return written;
+}
+
 std::string_view base_unit(Quantity quantity) {
   constexpr std::array<std::string_view, kQuantities> kUnits = {"s", "mm", "N", "1", "Pa"};
   return kUnits[static_cast<std::size_t>(quantity)];

@@ -19,6 +19,8 @@ std::string_view base_unit(Quantity quantity);
 std::optional<double> unit_factor(Quantity quantity, std::string_view unit);
 /// A unit, as written in a heading, in plain words and without brackets.
 std::string bare_unit(std::string_view unit);
+/// The same as the file writes it, for people: `N`, not `n`.
+std::string unit_as_written(std::string_view unit);
 
 /// The length over which a column of extension was recorded, as far as its name tells.
 enum class Gauge { unknown, grips, extensometer };

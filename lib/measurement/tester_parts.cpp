@@ -216,12 +216,12 @@ class PartFinder {
   void read_rows(const TableBlock& block, const ColumnGroup& group, const std::vector<std::size_t>& rows,
                  const std::string& name) {
     if (rows.empty()) {
-      return add(block, name,
+      return add(block, group, name,
                  tl::unexpected(ImportFault{file_, static_cast<int>(block.heading) + 1, "",
                                             "no numbers below the heading, expected rows of data"}));
     }
     auto series = series_of(block, group.columns, rows, tables_.delimiter, choice_, file_);
-    if (!series) return add(block, name, tl::unexpected(series.error()));
+    if (!series) return add(block, group, name, tl::unexpected(series.error()));
     std::vector<std::size_t> starts = restarts_of(*series);
     std::vector<std::string> titles(starts.size());
     if (name.empty()) add_breaks(block, *series, rows, starts, titles);
@@ -229,7 +229,7 @@ class PartFinder {
       const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : rows.size();
       ColumnSeries part = starts.size() == 1 ? std::move(*series) : rows_of_series(*series, starts[k], end);
       const std::string title = k == 0 ? block.title : titles[k];
-      add(block, name.empty() ? "" : name, std::move(part), title, k > 0);
+      add(block, group, name, std::move(part), title, k > 0);
     }
   }
 
@@ -265,10 +265,11 @@ class PartFinder {
     }
   }
 
-  void add(const TableBlock& block, const std::string& name, tl::expected<ColumnSeries, ImportFault> series,
-           const std::string& title = {}, bool is_new = false) {
-    Found part{
-        .part = {.name = name, .heading = block.heading, .series = {}, .fault = {}}, .title = title, .headings = {}};
+  void add(const TableBlock& block, const ColumnGroup& group, const std::string& name,
+           tl::expected<ColumnSeries, ImportFault> series, const std::string& title = {}, bool is_new = false) {
+    Found part{.part = {.name = name, .heading = block.heading, .columns = group.columns, .series = {}, .fault = {}},
+               .title = title,
+               .headings = {}};
     for (const ColumnName& column : block.columns) part.headings += plain_words(column.heading) + "|";
     if (!series) {
       part.part.fault = series.error();

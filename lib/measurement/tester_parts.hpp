@@ -14,6 +14,7 @@ namespace nacre::measurement {
 struct TesterPart {
   std::string name;                  ///< as the file names it; else its number
   std::size_t heading = 0;           ///< index of the line of its heading
+  std::vector<std::size_t> columns;  ///< of the table that are the specimen's
   ColumnSeries series;               ///< empty where there is a fault
   std::optional<ImportFault> fault;  ///< why it cannot be used
 };

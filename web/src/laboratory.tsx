@@ -46,6 +46,7 @@ const stateColumns = [
   { heading: "why", value: (d: DesignState) => d.why },
 ];
 
+const percentOrDash = (share: number | null) => (share === null ? "-" : percent(share));
 const inUnit = (g: Group, pa: number | null) =>
   pa === null ? "-" : (g.test === "modulus" ? `${gpa(pa)} GPa` : `${mpa(pa)} MPa`);
 
@@ -110,12 +111,14 @@ const groupColumns = [
     show: (g: Group) => inUnit(g, g.mean_pa),
     value: (g: Group) => g.mean_pa,
   },
-  { ...TERMS.scatter, show: (g: Group) => (g.scatter === null ? "-" : percent(g.scatter)), value: (g: Group) => g.scatter },
+  { ...TERMS.scatter, show: (g: Group) => percentOrDash(g.scatter), value: (g: Group) => g.scatter },
   {
     ...TERMS.withoutOutliers,
     csv: "mean_without_pa",
     show: (g: Group) =>
-      g.proposed_outliers.length > 0 ? `${inUnit(g, g.mean_without_pa)}, ${g.scatter_without === null ? "-" : percent(g.scatter_without)}` : "",
+      g.proposed_outliers.length > 0
+        ? `${inUnit(g, g.mean_without_pa)}, ${percentOrDash(g.scatter_without)}`
+        : "",
     value: (g: Group) => g.mean_without_pa,
   },
   { heading: "scatter_without", value: (g: Group) => g.scatter_without },
