@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/csv.hpp"
+#include "measurement/cell_units.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_numbers.hpp"
@@ -32,6 +33,9 @@ bool is_number(std::string_view cell) {
   return instrument_number(cell, DecimalMark::point) || looks_like_number(cell);
 }
 
+/// The same, or a number with its unit behind it.
+bool is_measured(std::string_view cell) { return is_number(cell) || number_with_unit(cell).has_value(); }
+
 std::size_t filled(const Cells& cells) {
   return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }));
 }
@@ -51,7 +55,7 @@ char delimiter_of(const std::vector<std::string_view>& lines) {
       ++looked;
       split_cells(line, delimiter, cells);
       if (cells.size() < 2) continue;
-      const auto numbers = static_cast<double>(std::count_if(cells.begin(), cells.end(), is_number));
+      const auto numbers = static_cast<double>(std::count_if(cells.begin(), cells.end(), is_measured));
       if (numbers >= 2.0) score += numbers - 2.0 * (static_cast<double>(filled(cells)) - numbers);
     }
     if (score <= most) continue;
@@ -179,7 +183,7 @@ class TableFinder {
     for (int seen = 0; next < lines_.size() && seen < kMostLines; ++next) {
       if (is_blank(lines_[next])) continue;
       split_cells(lines_[next], tables_.delimiter, below);
-      const auto numbers = std::count_if(below.begin(), below.end(), is_number);
+      const auto numbers = std::count_if(below.begin(), below.end(), is_measured);
       if (numbers > 0 && !is_unit_row(below)) break;
       if (!is_unit_row(below)) {
         if (seen > 0 || below.size() < 2 || filled(below) < 2 || is_heading(names_in(below)) || !leads_to_units(next))
@@ -226,11 +230,14 @@ class TableFinder {
   }
 
   /// How many of the two needed columns hold a number.
-  int numbers_in(const Cells& cells, const std::vector<std::size_t>& abscissae,
+  int numbers_in(const TableBlock& block, const Cells& cells, const std::vector<std::size_t>& abscissae,
                  const std::vector<std::size_t>& ordinates) const {
+    const auto is_value = [&](std::string_view cell) {
+      return is_number(cell) || ((block.lines.empty() || block.has_cell_units) && number_with_unit(cell));
+    };
     const auto any = [&](const std::vector<std::size_t>& places) {
       return std::any_of(places.begin(), places.end(),
-                         [&](std::size_t place) { return place < cells.size() && is_number(cells[place]); });
+                         [&](std::size_t place) { return place < cells.size() && is_value(cells[place]); });
     };
     return static_cast<int>(any(abscissae)) + static_cast<int>(any(ordinates));
   }
@@ -271,7 +278,7 @@ class TableFinder {
         continue;
       }
       split(next);
-      const int numbers = numbers_in(cells_, abscissae, ordinates);
+      const int numbers = numbers_in(block, cells_, abscissae, ordinates);
       if (numbers < 2 && has_letter(lines_[next])) {
         const std::vector<ColumnName> names = names_in(cells_);
         if (is_heading(names)) break;
@@ -314,6 +321,7 @@ class TableFinder {
       reject(index + 1, "", fmt::format("more than {} rows, expected at most that many", kMostCurveRows));
       return false;
     }
+    if (block.lines.empty()) block.has_cell_units = std::any_of(cells_.begin(), cells_.end(), number_with_unit);
     block.lines.push_back(index);
     block.begins.push_back(block.cells.size());
     block.cells.insert(block.cells.end(), cells_.begin(), cells_.end());
@@ -322,6 +330,7 @@ class TableFinder {
 
   void close(TableBlock block) {
     block.begins.push_back(block.cells.size());
+    if (block.has_cell_units) take_units_out(block);
     tables_.blocks.push_back(std::move(block));
   }
 

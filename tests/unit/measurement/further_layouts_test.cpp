@@ -1,0 +1,43 @@
+// Layouts of exports beyond one heading above columns of bare numbers: units in the cells, headings over two lines,
+// columns of fixed width.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "layouts.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+using testing::HasSubstr;
+
+class FurtherLayouts : public Layouts {};
+
+TEST_F(FurtherLayouts, WithUnitsInTheCellsAreRead) {
+  expect_read(table("Time,Extension,Load\n", "{:.3f} s,{:.5f} mm,{:.4f} N\n"));
+  EXPECT_THAT(all_of(import(table("Time,Extension,Load\n", "{:.3f} s,{:.5f} mm,{:.4f} N\n"))),
+              HasSubstr("force: `Load` in N, as its cells say"));
+  expect_read(table("Time (s),Position,Load\n", "{:.3f},{:.8f} m,{:.6e}kN\n", 1e-3, 1e-3));
+  expect_read(table("Time (s),Extension (mm),Load (kN)\n", "{:.3f} s,{:.5f} mm,{:.7f} kN\n", 1.0, 1e-3));
+  expect_read(with_commas(table("Zeit;Weg;Kraft\n", "{:.3f} s;{:.2f} \xC2\xB5m;{:.4f}\xC2\xA0N\n", 1e3)));
+  expect_read(with_commas(table("Zeit [s];Weg;Kraft\n", "\"{:.3f}\";\"{:.5f} mm\";\"{:.4f} N\"\n")));
+}
+
+TEST_F(FurtherLayouts, WithUnitsThatDifferFromCellToCellAreRefused) {
+  std::string ranged = "Time (s),Extension,Load\n", torn = ranged;
+  for (const Point& each : usual_test()) {
+    const std::string extension = fmt::format("{:.3f},{:.5f} mm", each.time_s, each.extension_mm);
+    ranged += each.force_n < 1000 ? fmt::format("{},{:.4f} N\n", extension, each.force_n)
+                                  : fmt::format("{},{:.7f} kN\n", extension, 1e-3 * each.force_n);
+    torn += fmt::format("{},{:.4f}{}\n", extension, each.force_n, each.force_n > 1000 ? "" : " N");
+  }
+  expect_refused(ranged, "the cells of the column differ in their unit");
+  expect_refused(torn, "the cells of the column differ in their unit");
+  expect_refused(table("Time (s),Extension (mm),Load (kN)\n", "{:.3f},{:.5f} mm,{:.4f} N\n"),
+                 "the heading is in `kN` and line 2 in `N`, expected one unit");
+  expect_refused(table("Time (s),Extension (mm),Load (N)\n", "{:.3f},{:.5f},{:.4f} mm\n"),
+                 "the heading is in `N` and line 2 in `mm`");
+}
+
+}  // namespace
+}  // namespace nacre::measurement
