@@ -9,6 +9,7 @@
 
 #include "base/csv.hpp"
 #include "measurement/cell_units.hpp"
+#include "measurement/heading_lines.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_numbers.hpp"
@@ -127,6 +128,37 @@ class TableFinder {
     return units > others;
   }
 
+  /// The heading that a line of words and the next give together; empty where one of them is the heading and the other
+  /// does not tell columns of one quantity apart (labels of specimens, names of channels).
+  std::vector<std::string> names_over_two_lines(std::size_t index) const {
+    if (index + 2 >= lines_.size() || !has_letter(lines_[index + 1])) return {};
+    Cells upper, lower;
+    split_cells(lines_[index], tables_.delimiter, upper);
+    split_cells(lines_[index + 1], tables_.delimiter, lower);
+    for (const Cells* cells : {&upper, &lower}) {
+      if (std::any_of(cells->begin(), cells->end(), is_measured) || is_unit_row(*cells)) return {};
+    }
+    std::vector<std::string> joined = joined_headings(upper, lower);
+    if (joined.empty() || !is_heading(names_in(Cells(joined.begin(), joined.end())))) return {};
+    const bool is_upper = is_heading(names_in(upper)), is_lower = is_heading(names_in(lower));
+    const auto has_digit = [&](std::size_t line) {
+      return lines_[line].find_first_of("0123456789:") != std::string_view::npos;
+    };
+    const bool is_one = is_upper != is_lower ? tells_roles(is_upper ? lower : upper)
+                                             : !is_upper && filled(upper) > 1 && filled(lower) > 1 &&
+                                                   !has_digit(index) && !has_digit(index + 1);
+    return is_one && are_numbers_next(index + 2) ? joined : std::vector<std::string>{};
+  }
+
+  /// Whether a row of units or of numbers follows.
+  bool are_numbers_next(std::size_t index) const {
+    while (index < lines_.size() && is_blank(lines_[index])) ++index;
+    if (index >= lines_.size()) return false;
+    Cells below;
+    split_cells(lines_[index], tables_.delimiter, below);
+    return is_unit_row(below) || std::count_if(below.begin(), below.end(), is_measured) > 1;
+  }
+
   void read() {
     before_.clear();
     for (std::size_t i = 0; i < lines_.size() && !fault_;) {
@@ -139,6 +171,10 @@ class TableFinder {
         before_.push_back(i++);
         continue;
       }
+      if (const std::vector<std::string> joined = names_over_two_lines(i); !joined.empty()) {
+        i = read_block(i, i + 2, joined);
+        continue;
+      }
       split(i);
       std::vector<ColumnName> names = names_in(cells_);
       note_resemblance(i, names);
@@ -146,14 +182,13 @@ class TableFinder {
         before_.push_back(i++);
         continue;
       }
-      i = read_block(i);
+      i = read_block(i, i + 1, std::vector<std::string>(cells_.begin(), cells_.end()));
     }
   }
 
   /// Title, labels and units from the lines above; returns the units by column.
-  std::vector<std::string> look_above(TableBlock& block) {
+  std::vector<std::string> look_above(TableBlock& block, std::size_t columns) {
     std::vector<std::string> units;
-    const std::size_t columns = cells_.size();
     Cells above;
     for (std::size_t back = 1; back <= 2 && back <= before_.size(); ++back) {
       const std::size_t index = before_[before_.size() - back];
@@ -208,7 +243,7 @@ class TableFinder {
     return false;
   }
 
-  std::size_t read_block(std::size_t heading) {
+  std::size_t read_block(std::size_t heading, std::size_t below, const std::vector<std::string>& names) {
     TableBlock block{.heading = heading,
                      .unit_line = heading,
                      .title = {},
@@ -218,9 +253,8 @@ class TableFinder {
                      .begins = {},
                      .cells = {},
                      .breaks = {}};
-    std::vector<std::string> units = look_above(block);
-    const Cells names(cells_);
-    const std::size_t next = look_below(block, heading + 1, units);
+    std::vector<std::string> units = look_above(block, names.size());
+    const std::size_t next = look_below(block, below, units);
     for (std::size_t i = 0; i < names.size(); ++i)
       block.columns.push_back(has_letter(names[i]) || !names[i].empty()
                                   ? recognise_column(names[i], i < units.size() ? units[i] : std::string_view{})
@@ -281,7 +315,7 @@ class TableFinder {
       const int numbers = numbers_in(block, cells_, abscissae, ordinates);
       if (numbers < 2 && has_letter(lines_[next])) {
         const std::vector<ColumnName> names = names_in(cells_);
-        if (is_heading(names)) break;
+        if (is_heading(names) || !names_over_two_lines(next).empty()) break;
       }
       if (is_over) {
         block.ignored_rows += numbers == 2;

@@ -39,5 +39,32 @@ TEST_F(FurtherLayouts, WithUnitsThatDifferFromCellToCellAreRefused) {
                  "the heading is in `N` and line 2 in `mm`");
 }
 
+TEST_F(FurtherLayouts, WithHeadingsOverTwoLinesAreRead) {
+  const std::string twice = "{0:.3f},{3:.5f},{1:.5f},{4:.4f},{2:.4f}\n";
+  const auto with_set_points = [&](const std::string& heading) {
+    std::string text = heading;
+    for (const Point& each : usual_test())
+      text += fmt::format(fmt::runtime(twice), each.time_s, each.extension_mm, each.force_n, 1.5 * each.extension_mm,
+                          7.0 + 3.1 * each.force_n);
+    return text;
+  };
+  expect_read(table("Running,Axial,Axial\nTime,Displacement,Force\n(s),(mm),(N)\n"));
+  expect_read(table("Elapsed,Cross,Load\nTime (s),head (mm),Cell (N)\n"));
+  expect_read(table("Test,Grip,Standard\nTime,Separation,Force\nsec,mm,kN\n", "{:.3f},{:.5f},{:.7f}\n", 1.0, 1e-3));
+  expect_read(
+      with_commas(table("Pr\xC3\xBC"
+                        "f-;Traversen-;Standard-\nzeit;weg;kraft\ns;mm;N\n",
+                        "{:.3f};{:.5f};{:.4f}\n")));
+  for (const char* heading :
+       {"Running,Command,Axial,Command,Axial\nTime,Displacement,Displacement,Force,Force\ns,mm,mm,N,N\n",
+        "Zeit,Weg,Weg,Kraft,Kraft\nIst,Soll,Ist,Soll,Ist\ns,mm,mm,N,N\n",
+        "Time,Position,,Load,\n,Target,Actual,Target,Actual\nsec,mm,mm,N,N\n",
+        ",Command,,Command,\nTime (s),Position (mm),Position (mm),Load (N),Load (N)\n"})
+    expect_read(with_set_points(heading));
+  const std::string page =
+      with_set_points("Running,Command,Axial,Command,Axial\nTime,Displacement,Displacement,Force,Force\ns,mm,mm,N,N\n");
+  EXPECT_THAT(all_of(import(page)), HasSubstr("`Axial Displacement` taken, not `Command Displacement` (a set point)"));
+}
+
 }  // namespace
 }  // namespace nacre::measurement
