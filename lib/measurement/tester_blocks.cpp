@@ -11,14 +11,13 @@
 #include "measurement/cell_units.hpp"
 #include "measurement/heading_lines.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/tester_delimiter.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
-
-using Cells = std::vector<std::string_view>;
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t,;|\"\r") == std::string_view::npos; }
 
@@ -27,43 +26,6 @@ bool has_letter(std::string_view text) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
            static_cast<unsigned char>(letter) > 127;
   });
-}
-
-bool is_number(std::string_view cell) {
-  if (cell.empty()) return false;
-  return instrument_number(cell, DecimalMark::point) || looks_like_number(cell);
-}
-
-/// The same, or a number with its unit behind it.
-bool is_measured(std::string_view cell) { return is_number(cell) || number_with_unit(cell).has_value(); }
-
-std::size_t filled(const Cells& cells) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }));
-}
-
-/// The delimiter with which most cells of the file's lines are numbers.
-char delimiter_of(const std::vector<std::string_view>& lines) {
-  constexpr std::size_t kLooked = 400, kEdge = 200;  // lines with digits; of a long file, the first and some beyond
-  char best = ',';
-  double most = 0.0;
-  Cells cells;
-  for (const char delimiter : {'\t', ';', ',', '|'}) {
-    double score = 0.0;
-    std::size_t looked = 0;
-    for (std::size_t i = 0; i < lines.size() && looked < kLooked + kEdge; ++i) {
-      const std::string_view line = lines[i];
-      if (line.size() > 4000 || line.find_first_of("0123456789") == std::string_view::npos) continue;
-      ++looked;
-      split_cells(line, delimiter, cells);
-      if (cells.size() < 2) continue;
-      const auto numbers = static_cast<double>(std::count_if(cells.begin(), cells.end(), is_measured));
-      if (numbers >= 2.0) score += numbers - 2.0 * (static_cast<double>(filled(cells)) - numbers);
-    }
-    if (score <= most) continue;
-    most = score;
-    best = delimiter;
-  }
-  return most > 0.0 ? best : '\0';
 }
 
 class TableFinder {
@@ -82,6 +44,10 @@ class TableFinder {
       if (!tables_.blocks.empty()) return std::move(tables_);
     }
     if (certain != '\0' && read_bare_table()) {
+      if (fault_) return tl::unexpected(*fault_);
+      return std::move(tables_);
+    }
+    if (read_fixed_width()) {
       if (fault_) return tl::unexpected(*fault_);
       return std::move(tables_);
     }
@@ -417,6 +383,17 @@ class TableFinder {
     return true;
   }
 
+  /// Columns that runs of blanks separate, where no delimiter gives a table.
+  bool read_fixed_width() {
+    if (score_of(lines_, kGaps) <= 0.0) return false;
+    const ExportTables before = std::exchange(tables_, {.delimiter = kGaps, .blocks = {}});
+    has_numbers_ = true;
+    read();
+    if (!tables_.blocks.empty() || fault_) return true;
+    tables_.delimiter = before.delimiter;
+    return false;
+  }
+
   void note_resemblance(std::size_t index, const std::vector<ColumnName>& names) {
     if (resemblance_ || names.size() < 2 || !has_numbers_) return;
     if (holds(names, abscissa()) == holds(names, ordinate())) return;
@@ -457,11 +434,12 @@ class TableFinder {
               fmt::format("no heading with `{}`{}, expected the columns that the sheet names", fmt::join(asked, "`, `"),
                           words.empty() ? "" : ", but " + words)};
     return {file_, 0, "",
-            fmt::format("no heading with extension and force{}, expected names such as {}, and {}, separated by "
-                        "commas, semicolons, tabs or bars, or extension_column and force_column in the sheet; stress "
-                        "and strain are read where the sheet has strain_column and stress_column",
-                        words.empty() ? "" : ", but " + words, expected_names(Quantity::extension),
-                        expected_names(Quantity::force))};
+            fmt::format(
+                "no heading with extension and force{}, expected names such as {}, and {}, separated by "
+                "commas, semicolons, tabs, bars or blanks, or extension_column and force_column in the sheet; stress "
+                "and strain are read where the sheet has strain_column and stress_column",
+                words.empty() ? "" : ", but " + words, expected_names(Quantity::extension),
+                expected_names(Quantity::force))};
   }
 
   const std::vector<std::string_view>& lines_;

@@ -40,6 +40,13 @@ class SeriesReader {
   tl::expected<ColumnSeries, ImportFault> read() {
     for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
     for (const std::size_t row : rows_) {
+      if (delimiter_ == kGaps && block_.cells_in(row) != block_.columns.size()) {
+        reject(block_.lines[row] + 1, "",
+               fmt::format("has {} columns, expected {} as in the heading: an empty cell, or fewer than two blanks "
+                           "between columns; export with a delimiter",
+                           block_.cells_in(row), block_.columns.size()));
+        return tl::unexpected(*fault_);
+      }
       if (delimiter_ != ',' || block_.cells_in(row) <= block_.columns.size() || !is_torn(row)) continue;
       refuse_torn(row);
       return tl::unexpected(*fault_);

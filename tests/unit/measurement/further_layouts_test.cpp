@@ -66,5 +66,28 @@ TEST_F(FurtherLayouts, WithHeadingsOverTwoLinesAreRead) {
   EXPECT_THAT(all_of(import(page)), HasSubstr("`Axial Displacement` taken, not `Command Displacement` (a set point)"));
 }
 
+TEST_F(FurtherLayouts, OfFixedWidthAreRead) {
+  expect_read(table("  Time (s)   Extension (mm)   Load (N)\n", "{:10.3f}   {:14.5f}   {:8.4f}\n"));
+  expect_read(table("Operator: N. N.\nSpeed  1.2 mm/min\n\nTime  Stroke  Force\n sec      mm     N\n",
+                    "{:.3f}  {:.5f}  {:.4f}\n"));
+  expect_read(with_commas(
+      table("Zeit      Weg        Kraft\n[s]       [mm]       [kN]\n", "{:<8.3f}  {:<9.5f}  {:.7f}\n", 1.0, 1e-3)));
+  expect_read(table("Elapsed      Cross      Load\nTime         head       Cell\nsec          mm         N\n",
+                    "{:<11.3f}  {:<9.5f}  {:.4f}\n"));
+}
+
+TEST_F(FurtherLayouts, OfFixedWidthWithAnEmptyCellAreRefused) {
+  std::string text = "Time (s)   Position (mm)   Extension (mm)   Load (N)\n";
+  for (const Point& each : usual_test())
+    text +=
+        fmt::format("{:8.3f}   {:13}   {:14.5f}   {:8.4f}\n", each.time_s,
+                    each.time_s > 30 ? "" : fmt::format("{:.5f}", each.extension_mm), each.extension_mm, each.force_n);
+  expect_refused(text, "has 3 columns, expected 4 as in the heading");
+  std::string narrow = "Time (s)  Extension (mm)  Load (N)\n";
+  for (const Point& each : usual_test())
+    narrow += fmt::format("{:.0f} {:03.0f}  {:.4f}\n", each.time_s, 100 * each.extension_mm, each.force_n);
+  expect_refused(narrow, "has 2 columns, expected 3");
+}
+
 }  // namespace
 }  // namespace nacre::measurement
