@@ -86,7 +86,7 @@ TEST_F(FurtherLayouts, OfFixedWidthWithAnEmptyCellAreRefused) {
   std::string narrow = "Time (s)  Extension (mm)  Load (N)\n";
   for (const Point& each : usual_test())
     narrow += fmt::format("{:.0f} {:03.0f}  {:.4f}\n", each.time_s, 100 * each.extension_mm, each.force_n);
-  expect_refused(narrow, "has 2 columns, expected 3");
+  expect_refused(narrow, "the row has 2 cells, expected 3");
 }
 
 }  // namespace
