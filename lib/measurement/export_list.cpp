@@ -14,10 +14,6 @@
 namespace nacre::measurement {
 namespace {
 
-std::string delimiter_in_words(char delimiter) {
-  return delimiter == '\t' ? "tab" : delimiter == ',' ? "comma" : delimiter == ';' ? "semicolon" : "bar";
-}
-
 /// The course of a series in bars of eight heights.
 std::string sparkline_of(const std::vector<double>& values) {
   constexpr std::array<const char*, 8> kBars = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
@@ -90,7 +86,7 @@ tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, cons
   const ExportParts parts = parts_of(*tables, choice, file);
   ListedExport shown{.maker = maker_of(lines, tables->delimiter),
                      .encoding = text->encoding,
-                     .delimiter = delimiter_in_words(tables->delimiter),
+                     .delimiter = std::string(delimiter_in_words(tables->delimiter)),
                      .parts = {},
                      .notes = parts.notes};
   for (const TesterPart& part : parts.parts) shown.parts.push_back(listed(part, *tables));

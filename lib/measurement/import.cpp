@@ -199,16 +199,12 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
   record.note += (record.note.empty() ? "" : "; ") + why;
 }
 
-std::string shown_delimiter(char delimiter) {
-  return delimiter == '\t' ? "tab" : delimiter == ',' ? "comma" : delimiter == ';' ? "semicolon" : "bar";
-}
-
 /// Which file, part, columns and units the numbers came from.
 std::map<std::string, std::string> provenance_of(const TesterRecord& from, const SheetRow& row) {
   std::map<std::string, std::string> cells = {{"part", from.part},
                                               {"maker", from.maker},
                                               {"encoding", from.encoding},
-                                              {"delimiter", shown_delimiter(from.delimiter)},
+                                              {"delimiter", std::string(delimiter_in_words(from.delimiter))},
                                               {"decimal_mark", std::string(1, from.decimal_mark)},
                                               {"first_line", fmt::format("{}", from.line.front())},
                                               {"last_line", fmt::format("{}", from.line.back())},

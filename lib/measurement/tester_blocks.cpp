@@ -8,15 +8,16 @@
 #include <utility>
 
 #include "base/csv.hpp"
+#include "measurement/cell_units.hpp"
+#include "measurement/heading_lines.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/tester_delimiter.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
-
-using Cells = std::vector<std::string_view>;
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t,;|\"\r") == std::string_view::npos; }
 
@@ -25,40 +26,6 @@ bool has_letter(std::string_view text) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
            static_cast<unsigned char>(letter) > 127;
   });
-}
-
-bool is_number(std::string_view cell) {
-  if (cell.empty()) return false;
-  return instrument_number(cell, DecimalMark::point) || looks_like_number(cell);
-}
-
-std::size_t filled(const Cells& cells) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }));
-}
-
-/// The delimiter with which most cells of the file's lines are numbers.
-char delimiter_of(const std::vector<std::string_view>& lines) {
-  constexpr std::size_t kLooked = 400, kEdge = 200;  // lines with digits; of a long file, the first and some beyond
-  char best = ',';
-  double most = 0.0;
-  Cells cells;
-  for (const char delimiter : {'\t', ';', ',', '|'}) {
-    double score = 0.0;
-    std::size_t looked = 0;
-    for (std::size_t i = 0; i < lines.size() && looked < kLooked + kEdge; ++i) {
-      const std::string_view line = lines[i];
-      if (line.size() > 4000 || line.find_first_of("0123456789") == std::string_view::npos) continue;
-      ++looked;
-      split_cells(line, delimiter, cells);
-      if (cells.size() < 2) continue;
-      const auto numbers = static_cast<double>(std::count_if(cells.begin(), cells.end(), is_number));
-      if (numbers >= 2.0) score += numbers - 2.0 * (static_cast<double>(filled(cells)) - numbers);
-    }
-    if (score <= most) continue;
-    most = score;
-    best = delimiter;
-  }
-  return most > 0.0 ? best : '\0';
 }
 
 class TableFinder {
@@ -77,6 +44,10 @@ class TableFinder {
       if (!tables_.blocks.empty()) return std::move(tables_);
     }
     if (certain != '\0' && read_bare_table()) {
+      if (fault_) return tl::unexpected(*fault_);
+      return std::move(tables_);
+    }
+    if (read_fixed_width()) {
       if (fault_) return tl::unexpected(*fault_);
       return std::move(tables_);
     }
@@ -123,6 +94,37 @@ class TableFinder {
     return units > others;
   }
 
+  /// The heading that a line of words and the next give together; empty where one of them is the heading and the other
+  /// does not tell columns of one quantity apart (labels of specimens, names of channels).
+  std::vector<std::string> names_over_two_lines(std::size_t index) const {
+    if (index + 2 >= lines_.size() || !has_letter(lines_[index + 1])) return {};
+    Cells upper, lower;
+    split_cells(lines_[index], tables_.delimiter, upper);
+    split_cells(lines_[index + 1], tables_.delimiter, lower);
+    for (const Cells* cells : {&upper, &lower}) {
+      if (std::any_of(cells->begin(), cells->end(), is_measured) || is_unit_row(*cells)) return {};
+    }
+    std::vector<std::string> joined = joined_headings(upper, lower);
+    if (joined.empty() || !is_heading(names_in(Cells(joined.begin(), joined.end())))) return {};
+    const bool is_upper = is_heading(names_in(upper)), is_lower = is_heading(names_in(lower));
+    const auto has_digit = [&](std::size_t line) {
+      return lines_[line].find_first_of("0123456789:") != std::string_view::npos;
+    };
+    const bool is_one = is_upper != is_lower ? tells_roles(is_upper ? lower : upper)
+                                             : !is_upper && filled(upper) > 1 && filled(lower) > 1 &&
+                                                   !has_digit(index) && !has_digit(index + 1);
+    return is_one && are_numbers_next(index + 2) ? joined : std::vector<std::string>{};
+  }
+
+  /// Whether a row of units or of numbers follows.
+  bool are_numbers_next(std::size_t index) const {
+    while (index < lines_.size() && is_blank(lines_[index])) ++index;
+    if (index >= lines_.size()) return false;
+    Cells below;
+    split_cells(lines_[index], tables_.delimiter, below);
+    return is_unit_row(below) || std::count_if(below.begin(), below.end(), is_measured) > 1;
+  }
+
   void read() {
     before_.clear();
     for (std::size_t i = 0; i < lines_.size() && !fault_;) {
@@ -135,6 +137,10 @@ class TableFinder {
         before_.push_back(i++);
         continue;
       }
+      if (const std::vector<std::string> joined = names_over_two_lines(i); !joined.empty()) {
+        i = read_block(i, i + 2, joined);
+        continue;
+      }
       split(i);
       std::vector<ColumnName> names = names_in(cells_);
       note_resemblance(i, names);
@@ -142,14 +148,13 @@ class TableFinder {
         before_.push_back(i++);
         continue;
       }
-      i = read_block(i);
+      i = read_block(i, i + 1, std::vector<std::string>(cells_.begin(), cells_.end()));
     }
   }
 
   /// Title, labels and units from the lines above; returns the units by column.
-  std::vector<std::string> look_above(TableBlock& block) {
+  std::vector<std::string> look_above(TableBlock& block, std::size_t columns) {
     std::vector<std::string> units;
-    const std::size_t columns = cells_.size();
     Cells above;
     for (std::size_t back = 1; back <= 2 && back <= before_.size(); ++back) {
       const std::size_t index = before_[before_.size() - back];
@@ -179,7 +184,7 @@ class TableFinder {
     for (int seen = 0; next < lines_.size() && seen < kMostLines; ++next) {
       if (is_blank(lines_[next])) continue;
       split_cells(lines_[next], tables_.delimiter, below);
-      const auto numbers = std::count_if(below.begin(), below.end(), is_number);
+      const auto numbers = std::count_if(below.begin(), below.end(), is_measured);
       if (numbers > 0 && !is_unit_row(below)) break;
       if (!is_unit_row(below)) {
         if (seen > 0 || below.size() < 2 || filled(below) < 2 || is_heading(names_in(below)) || !leads_to_units(next))
@@ -204,7 +209,7 @@ class TableFinder {
     return false;
   }
 
-  std::size_t read_block(std::size_t heading) {
+  std::size_t read_block(std::size_t heading, std::size_t below, const std::vector<std::string>& names) {
     TableBlock block{.heading = heading,
                      .unit_line = heading,
                      .title = {},
@@ -214,9 +219,8 @@ class TableFinder {
                      .begins = {},
                      .cells = {},
                      .breaks = {}};
-    std::vector<std::string> units = look_above(block);
-    const Cells names(cells_);
-    const std::size_t next = look_below(block, heading + 1, units);
+    std::vector<std::string> units = look_above(block, names.size());
+    const std::size_t next = look_below(block, below, units);
     for (std::size_t i = 0; i < names.size(); ++i)
       block.columns.push_back(has_letter(names[i]) || !names[i].empty()
                                   ? recognise_column(names[i], i < units.size() ? units[i] : std::string_view{})
@@ -226,11 +230,14 @@ class TableFinder {
   }
 
   /// How many of the two needed columns hold a number.
-  int numbers_in(const Cells& cells, const std::vector<std::size_t>& abscissae,
+  int numbers_in(const TableBlock& block, const Cells& cells, const std::vector<std::size_t>& abscissae,
                  const std::vector<std::size_t>& ordinates) const {
+    const auto is_value = [&](std::string_view cell) {
+      return is_number(cell) || ((block.lines.empty() || block.has_cell_units) && number_with_unit(cell));
+    };
     const auto any = [&](const std::vector<std::size_t>& places) {
       return std::any_of(places.begin(), places.end(),
-                         [&](std::size_t place) { return place < cells.size() && is_number(cells[place]); });
+                         [&](std::size_t place) { return place < cells.size() && is_value(cells[place]); });
     };
     return static_cast<int>(any(abscissae)) + static_cast<int>(any(ordinates));
   }
@@ -271,10 +278,10 @@ class TableFinder {
         continue;
       }
       split(next);
-      const int numbers = numbers_in(cells_, abscissae, ordinates);
+      const int numbers = numbers_in(block, cells_, abscissae, ordinates);
       if (numbers < 2 && has_letter(lines_[next])) {
         const std::vector<ColumnName> names = names_in(cells_);
-        if (is_heading(names)) break;
+        if (is_heading(names) || !names_over_two_lines(next).empty()) break;
       }
       if (is_over) {
         block.ignored_rows += numbers == 2;
@@ -314,6 +321,7 @@ class TableFinder {
       reject(index + 1, "", fmt::format("more than {} rows, expected at most that many", kMostCurveRows));
       return false;
     }
+    if (block.lines.empty()) block.has_cell_units = std::any_of(cells_.begin(), cells_.end(), number_with_unit);
     block.lines.push_back(index);
     block.begins.push_back(block.cells.size());
     block.cells.insert(block.cells.end(), cells_.begin(), cells_.end());
@@ -322,6 +330,7 @@ class TableFinder {
 
   void close(TableBlock block) {
     block.begins.push_back(block.cells.size());
+    if (block.has_cell_units) take_units_out(block);
     tables_.blocks.push_back(std::move(block));
   }
 
@@ -374,6 +383,17 @@ class TableFinder {
     return true;
   }
 
+  /// Columns that runs of blanks separate, where no delimiter gives a table.
+  bool read_fixed_width() {
+    if (score_of(lines_, kGaps) <= 0.0) return false;
+    const ExportTables before = std::exchange(tables_, {.delimiter = kGaps, .blocks = {}});
+    has_numbers_ = true;
+    read();
+    if (!tables_.blocks.empty() || fault_) return true;
+    tables_.delimiter = before.delimiter;
+    return false;
+  }
+
   void note_resemblance(std::size_t index, const std::vector<ColumnName>& names) {
     if (resemblance_ || names.size() < 2 || !has_numbers_) return;
     if (holds(names, abscissa()) == holds(names, ordinate())) return;
@@ -414,11 +434,12 @@ class TableFinder {
               fmt::format("no heading with `{}`{}, expected the columns that the sheet names", fmt::join(asked, "`, `"),
                           words.empty() ? "" : ", but " + words)};
     return {file_, 0, "",
-            fmt::format("no heading with extension and force{}, expected names such as {}, and {}, separated by "
-                        "commas, semicolons, tabs or bars, or extension_column and force_column in the sheet; stress "
-                        "and strain are read where the sheet has strain_column and stress_column",
-                        words.empty() ? "" : ", but " + words, expected_names(Quantity::extension),
-                        expected_names(Quantity::force))};
+            fmt::format(
+                "no heading with extension and force{}, expected names such as {}, and {}, separated by "
+                "commas, semicolons, tabs, bars or blanks, or extension_column and force_column in the sheet; stress "
+                "and strain are read where the sheet has strain_column and stress_column",
+                words.empty() ? "" : ", but " + words, expected_names(Quantity::extension),
+                expected_names(Quantity::force))};
   }
 
   const std::vector<std::string_view>& lines_;

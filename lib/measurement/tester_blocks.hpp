@@ -23,10 +23,11 @@ struct TableBreak {
 
 /// One heading and the rows below it. Cells are views of the file's text.
 struct TableBlock {
-  std::size_t heading = 0;    ///< index of its line
-  std::size_t unit_line = 0;  ///< index of the line with its units: the heading, or a line of their own
-  bool is_bare = false;       ///< numbers without a heading
-  std::string title;          ///< the words before the heading
+  std::size_t heading = 0;      ///< index of its line
+  std::size_t unit_line = 0;    ///< index of the line with its units: the heading, or a line of their own
+  bool is_bare = false;         ///< numbers without a heading
+  bool has_cell_units = false;  ///< numbers carry their unit
+  std::string title;            ///< the words before the heading
   std::vector<ColumnName> columns;
   std::vector<std::string> labels;  ///< of a line above the names, by column; empty when there is none
   std::vector<std::size_t> lines;   ///< index of each row's line

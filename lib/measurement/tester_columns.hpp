@@ -33,9 +33,10 @@ struct ColumnName {
   std::string unit = {};  ///< as written with the name; empty when it is not
   Gauge gauge = Gauge::unknown;
   ColumnRole role = ColumnRole::measured;
-  bool is_other = false;     ///< a word gives the name another meaning (`maximum`, `rate`)
-  bool is_specimen = false;  ///< tells which specimen a row belongs to
-  std::string name = {};     ///< in plain words, without the unit
+  bool is_other = false;       ///< a word gives the name another meaning (`maximum`, `rate`)
+  bool is_specimen = false;    ///< tells which specimen a row belongs to
+  bool unit_of_cells = false;  ///< the unit stands behind each number
+  std::string name = {};       ///< in plain words, without the unit
 };
 
 /// Recognises `Load (N)`, `Standardkraft [N]`, `Kraft in N`, `Force / kN`, `force_n`, `Position (m) Run #1`,

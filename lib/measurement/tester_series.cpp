@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/csv.hpp"
+#include "measurement/cell_units.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 
@@ -39,6 +40,13 @@ class SeriesReader {
   tl::expected<ColumnSeries, ImportFault> read() {
     for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
     for (const std::size_t row : rows_) {
+      if (delimiter_ == kGaps && block_.cells_in(row) != block_.columns.size()) {
+        reject(block_.lines[row] + 1, "",
+               fmt::format("has {} columns, expected {} as in the heading: an empty cell, or fewer than two blanks "
+                           "between columns; export with a delimiter",
+                           block_.cells_in(row), block_.columns.size()));
+        return tl::unexpected(*fault_);
+      }
       if (delimiter_ != ',' || block_.cells_in(row) <= block_.columns.size() || !is_torn(row)) continue;
       refuse_torn(row);
       return tl::unexpected(*fault_);
@@ -255,6 +263,9 @@ class SeriesReader {
     if (const auto factor = unit_factor(quantity, name.unit); factor && !name.unit.empty()) {
       column.unit = name.unit;
       column.factor = *factor;
+      if (name.unit_of_cells)
+        series_.decisions.push_back(
+            fmt::format("{}: `{}` in {}, as its cells say", to_string(quantity), name.heading, name.unit));
       return true;
     }
     const std::string units = choice_.unit;
@@ -296,6 +307,8 @@ class SeriesReader {
       return reject(line, heading,
                     fmt::format("the row has {} cells, expected {}; is the file cut off or edited?", cells,
                                 block_.columns.size()));
+    if (const std::string units = fault_of_units(block_, column); number_with_unit(text) && !units.empty())
+      return reject(line, heading, units);
     if (!looks_like_number(text))
       return reject(
           line, heading,
@@ -308,7 +321,7 @@ class SeriesReader {
   /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
   bool is_torn(std::size_t row) const {
     for (std::size_t i = block_.columns.size(); i < block_.cells_in(row); ++i) {
-      if (looks_like_number(block_.cell(row, i))) return true;
+      if (looks_like_number(block_.cell(row, i)) || number_with_unit(block_.cell(row, i))) return true;
     }
     return false;
   }

@@ -68,7 +68,27 @@ std::vector<TextRow> rows_of(std::string_view text, char delimiter) {
   return rows;
 }
 
+std::string_view delimiter_in_words(char delimiter) {
+  switch (delimiter) {
+    case '\t':
+      return "tab";
+    case ';':
+      return "semicolon";
+    case '|':
+      return "bar";
+    case kGaps:
+      return "blanks";
+    default:
+      return "comma";
+  }
+}
+
 std::vector<std::string> cells_of(std::string_view line, char delimiter) {
+  if (delimiter == kGaps) {
+    std::vector<std::string_view> views;
+    split_cells(line, delimiter, views);
+    return {views.begin(), views.end()};
+  }
   std::vector<std::string> cells;
   std::string cell;
   bool is_quoted = false;
@@ -96,8 +116,23 @@ std::vector<std::string> cells_of(std::string_view line, char delimiter) {
   return cells;
 }
 
+namespace {
+
+void split_at_gaps(std::string_view line, std::vector<std::string_view>& cells) {
+  line = trimmed(line);
+  while (true) {
+    const std::size_t end = std::min(line.find("  "), line.size());
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == line.size()) return;
+    line = trimmed(line.substr(end));
+  }
+}
+
+}  // namespace
+
 void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
+  if (delimiter == kGaps) return split_at_gaps(line, cells);
   while (true) {
     std::size_t end = std::min(line.find(delimiter), line.size());
     std::string_view cell = trimmed(line.substr(0, end));

@@ -11,6 +11,11 @@ namespace nacre::measurement {
 /// Lines without their ends (LF, CRLF or CR).
 std::vector<std::string_view> lines_of(std::string_view text);
 
+/// The delimiter of columns of fixed width: two blanks and more, whose cells are not quoted.
+inline constexpr char kGaps = ' ';
+/// `comma`, `semicolon`, `tab`, `bar`, `blanks`.
+std::string_view delimiter_in_words(char delimiter);
+
 /// Cells of one line, blanks around them removed; a cell in double quotes may hold the delimiter. More lenient than
 /// RFC 4180: header blocks of testing machines hold any text.
 std::vector<std::string> cells_of(std::string_view line, char delimiter);

@@ -2,7 +2,11 @@
 
 #include "measurement/import.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +30,7 @@ struct Options {
   std::string preview;
   bool list = false;
   bool replace = false;
+  bool yes = false;
   bool json = false;
 };
 
@@ -60,7 +65,8 @@ nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
   return document;
 }
 
-void print_import(const measurement::Import& import, const Options& options) {
+/// `set`: the folder that keeps the specimens; empty where none does.
+void print_import(const measurement::Import& import, const Options& options, const std::string& set) {
   if (!options.json) {
     for (const auto& one : import.specimens) {
       fmt::print("{:16} {:20} E {:>9} GPa  T {:>8} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
@@ -72,13 +78,13 @@ void print_import(const measurement::Import& import, const Options& options) {
     fmt::print("{}{}{}, {} rejected: {}\n", counted(static_cast<std::int64_t>(import.specimens.size()), "specimen"),
                import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
                import.replaced > 0 ? fmt::format(" ({} replaced)", import.replaced) : "", import.rejected.size(),
-               options.out);
+               set.empty() ? "no set written" : set);
     return;
   }
   nlohmann::ordered_json specimens = nlohmann::ordered_json::array(), rejected = specimens;
   for (const auto& one : import.specimens) specimens.push_back(to_json(one));
   for (const auto& fault : import.rejected) rejected.push_back(to_json(fault));
-  print_json({{"set", options.out},
+  print_json({{"set", set},
               {"specimens", specimens},
               {"known", import.known},
               {"replaced", import.replaced},
@@ -138,32 +144,65 @@ int list_exports(const Options& options) {
   return all_read ? 0 : 1;
 }
 
+void check(const Options& options) {
+  if (options.sheet.empty()) throw InputError("--specimens is missing, expected the sheet (or --list FILE)");
+  if (options.out.empty() && (options.preview.empty() || options.yes))
+    throw InputError::format("--out is missing, expected the folder of the measurement set{}",
+                             options.yes ? "" : " (or --preview PAGE.html)");
+}
+
+/// Warnings and rejected specimens of an import, each once.
+class Told {
+ public:
+  void tell(const measurement::Import& import) {
+    for (; warnings_ < import.warnings.size(); ++warnings_) warn(import.warnings[warnings_]);
+    for (; rejected_ < import.rejected.size(); ++rejected_) warn(to_string(import.rejected[rejected_]));
+  }
+
+ private:
+  std::size_t warnings_ = 0, rejected_ = 0;
+};
+
+/// Whether what the page shows is to be kept, as the person or `--yes` says; nothing where nobody can be asked.
+std::optional<bool> is_approved(const Options& options, std::size_t specimens) {
+  if (options.yes) return true;
+  if (options.out.empty() || ::isatty(STDIN_FILENO) == 0) return std::nullopt;
+  std::cerr << fmt::format("Import {} into {}? [y/N] ", counted(static_cast<std::int64_t>(specimens), "specimen"),
+                           options.out)
+            << std::flush;
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
 int import_exports(const Options& options) {
   if (options.list) {
     if (options.files.empty()) throw InputError("--list: expected one file or more");
     return list_exports(options);
   }
-  if (options.sheet.empty()) throw InputError("--specimens is missing, expected the sheet (or --list FILE)");
-  if (options.out.empty() && options.preview.empty())
-    throw InputError("--out is missing, expected the folder of the measurement set (or --preview PAGE.html)");
+  check(options);
   const measurement::ImportSettings settings{.toe = options.toe == "keep" ? measurement::Toe::keep
                                                                           : measurement::Toe::compensate};
   measurement::Import import = measurement::import_exports(
       std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
-  if (!options.preview.empty()) {
+  const bool is_shown = !options.preview.empty();
+  std::optional<bool> approved = !is_shown;
+  Told told;
+  if (is_shown) {
     write_file_atomically(options.preview, report::import_preview(import, options.sheet));
-    remark(fmt::format("{}: nothing is in a set yet; import again without --preview to keep it", options.preview));
-  } else {
-    measurement::write_import(options.out, options.sheet, import, options.replace);
+    told.tell(import);
+    remark(fmt::format("{}: shows what would be imported", options.preview));
+    if (!import.specimens.empty()) approved = is_approved(options, import.specimens.size());
+    if (!approved) remark("no set is written; the same with --out SET --yes keeps it");
   }
-  for (const std::string& warning : import.warnings) warn(warning);
-  for (const auto& fault : import.rejected) warn(to_string(fault));
+  if (approved.value_or(false)) measurement::write_import(options.out, options.sheet, import, options.replace);
+  told.tell(import);
   if (import.specimens.empty()) {
     throw InputError::format("{}: none of its specimens is usable; the first: {}", options.sheet,
                              import.rejected.empty() ? "no rows" : to_string(import.rejected.front()));
   }
-  print_import(import, options);
-  return 0;
+  print_import(import, options, approved.value_or(false) ? options.out : "");
+  return approved.value_or(true) ? 0 : 1;
 }
 
 }  // namespace
@@ -182,7 +221,9 @@ void add_import(CLI::App& app, Action& action) {
   command.add_option("--out", options->out, "Folder of the measurement set; specimens are added to one that exists");
   command.add_flag("--list", options->list,
                    "Show what the files hold: parts, columns, units, ranges; nothing is imported");
-  command.add_option("--preview", options->preview, "Write this HTML page of what would be imported, and no set");
+  command.add_option("--preview", options->preview,
+                     "Write this HTML page of what would be imported, then ask whether --out keeps it");
+  command.add_flag("--yes", options->yes, "Keep what --preview shows without asking");
   command.add_flag("--replace", options->replace,
                    "Replace specimens that the set holds with other values; whether they are valid stays");
   command.add_option("--toe", options->toe, "Flat beginning of the curves: compensate (ASTM D638 A1) or keep")

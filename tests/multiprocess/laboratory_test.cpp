@@ -99,6 +99,22 @@ TEST(ImportProgram, MakesASetOfWhatIsUsableAndNamesTheRest) {
   EXPECT_EQ(measurement::read_measurement_set(set).specimens.size(), 2U);
 }
 
+TEST(ImportProgram, KeepsWhatAPreviewShowsOnlyWhenToldTo) {
+  const fs::path folder = fresh_folder("previewed");
+  const std::string page = (folder / "page.html").string(), set = (folder / "set").string();
+  const std::vector<std::string> arguments = {
+      "import", "--specimens", (kExample / "specimens.csv").string(), "--preview", page, "--out", set};
+  const Outcome shown = run_nacre(arguments);
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  EXPECT_THAT(shown.err, HasSubstr("no set is written; the same with --out SET --yes keeps it"));
+  EXPECT_THAT(read_file(page), HasSubstr("tutorial-01"));
+  EXPECT_FALSE(fs::exists(set));
+  std::vector<std::string> approved = arguments;
+  approved.emplace_back("--yes");
+  ASSERT_EQ(run_nacre(approved).status, 0);
+  EXPECT_FALSE(measurement::read_measurement_set(set).specimens.empty());
+}
+
 TEST(ImportProgram, EndsWithStatusTwoWhenNothingIsUsable) {
   const fs::path folder = fresh_folder("unusable");
   std::ofstream(folder / "sheet.csv")
