@@ -7,6 +7,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "base/shipped_files.hpp"
 #include "base/toml_file.hpp"
 #include "game/scenario_keys.hpp"
 
@@ -113,9 +114,7 @@ std::vector<std::filesystem::path> search_folders(const std::filesystem::path& s
   };
   add_with_parents(std::filesystem::absolute(scenario_path).parent_path());
   add_with_parents(std::filesystem::current_path());
-  std::error_code no_such_link;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", no_such_link);
-  if (!no_such_link) add_with_parents(program.parent_path());
+  folders.push_back(shipped_folder());
   return folders;
 }
 

@@ -100,9 +100,9 @@ struct Scenario {
 };
 
 /// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value,
-/// range. Files that it names are searched in the scenario's folder, in the folders above it, in the working folder and
-/// in the folders above it and above the program, in this order; the result holds the paths found. A file that is not
-/// found is an InputError.
+/// range. Files that it names are searched in the scenario's folder, in the folders above it, in the working folder,
+/// in the folders above it and in what comes with nacre (base/shipped_files.hpp), in this order; the result holds the
+/// paths found. A file that is not found is an InputError.
 Scenario read_scenario(const std::filesystem::path& path);
 
 /// The same from text, with file names left as written; `source` names the place in errors.

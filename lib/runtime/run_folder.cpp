@@ -21,7 +21,7 @@
 #include "base/hash.hpp"
 #include "base/names.hpp"
 #include "base/result.hpp"
-#include "runtime/process.hpp"
+#include "base/shipped_files.hpp"
 #include "tester/simulation_key.hpp"
 #include "wire/header.hpp"
 
@@ -39,20 +39,6 @@ std::string formatted_time(const char* format, bool utc) {
 }
 
 std::string utc_now() { return formatted_time("%Y-%m-%dT%H:%M:%SZ", true); }
-
-std::string without_line_end(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
-/// The commit of the sources around the program; "unknown" where there is no git or no repository.
-std::string source_commit() {
-  const std::string folder = this_program().parent_path().string();
-  const ProgramOutput commit = ask_program({"git", "-C", folder, "rev-parse", "--verify", "--quiet", "HEAD"});
-  if (!commit.end.orderly()) return "unknown";
-  const ProgramOutput changes = ask_program({"git", "-C", folder, "status", "--porcelain", "--untracked-files=no"});
-  return without_line_end(commit.output) + (changes.output.empty() ? "" : "+changes");
-}
 
 /// Replaces `link` in one step, so that a reader never finds it missing.
 void point_link_at(const fs::path& link, const fs::path& target) {
@@ -205,7 +191,7 @@ void RunFolder::fill(const std::string& run_id, const game::Scenario& scenario) 
                .nacre_version = NACRE_VERSION,
                .kernel_version = tester::kKernelVersion,
                .schema_version = kSchemaVersion,
-               .commit = source_commit()};
+               .commit = build_commit()};
   write_manifest();
 }
 

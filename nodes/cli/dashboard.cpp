@@ -13,7 +13,7 @@
 #include "run_access.hpp"
 #include "run_desk.hpp"
 #include "runtime/interrupts.hpp"
-#include "runtime/process.hpp"
+#include "shipped_files.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -31,12 +31,9 @@ struct Options {
 /// Whether only this machine reaches the address.
 bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
 
-/// The page as built beside the program: build/web.
-std::filesystem::path built_page() { return runtime::this_program().parent_path().parent_path() / "web"; }
-
 dashboard::DashboardSettings settings_of(const RunAccess& run, const Options& options) {
   return {.run_folder = run.folder,
-          .page_folder = options.page.empty() ? built_page() : std::filesystem::path(options.page),
+          .page_folder = options.page.empty() ? page_folder() : std::filesystem::path(options.page),
           .family_folder = options.families.empty() ? run.folder / "families" : std::filesystem::path(options.families),
           .run_id = run.manifest.run_id,
           .started = run.manifest.started,
@@ -86,7 +83,8 @@ void add_dashboard(CLI::App& app, Action& action) {
                      "Name under which a tunnel or a proxy shows the page, NAME or NAME:PORT; may be repeated");
   command.add_option("--families", options->families,
                      "Folder of `nacre families` for the map explorer; default: RUN/families");
-  command.add_option("--page", options->page, "Folder of the built page; default: build/web");
+  command.add_option("--page", options->page,
+                     "Folder of the built page; default: the one that came with nacre, or build/web");
   command.footer(
       "Example: nacre dashboard logs/latest\n  prints http://127.0.0.1:8765/ - open it. Elsewhere on the network: "
       "--host 0.0.0.0 prints a link with a token.");

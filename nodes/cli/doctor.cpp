@@ -14,6 +14,7 @@
 #include "output.hpp"
 #include "run_access.hpp"
 #include "runtime/run_folder.hpp"
+#include "shipped_files.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre::cli {
@@ -45,7 +46,8 @@ std::string_view to_string(CheckStatus verdict) {
 }
 
 std::vector<Finding> look_at_everything(const Options& options) {
-  const game::Scenario scenario = options.scenario.empty() ? game::Scenario{} : game::read_scenario(options.scenario);
+  const game::Scenario scenario =
+      options.scenario.empty() ? game::Scenario{} : game::read_scenario(scenario_file(options.scenario));
   const bool lan = scenario.hosts == "lan";
   std::vector<Finding> findings = {check_programs()};
   if (findings.back().verdict == CheckStatus::good) findings.push_back(check_versions());

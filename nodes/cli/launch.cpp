@@ -14,6 +14,7 @@
 #include "runtime/interrupts.hpp"
 #include "runtime/launcher.hpp"
 #include "runtime/recorder.hpp"
+#include "shipped_files.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::cli {
@@ -57,7 +58,8 @@ void warn_about_units(const game::Scenario& scenario) {
   }
 }
 
-int play(const runtime::LaunchOptions& options) {
+/// Throws InputError for options that do not go together.
+void check_together(const runtime::LaunchOptions& options) {
   if (options.scenario.empty() == options.resume.empty()) {
     throw InputError("nacre launch: expected either a SCENARIO.toml or --resume RUN");
   }
@@ -76,7 +78,13 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.only.empty() && !options.elsewhere.empty()) {
     throw InputError("nacre launch: expected either --only or --elsewhere, not both");
   }
+}
+
+int play(const runtime::LaunchOptions& typed) {
+  check_together(typed);
+  runtime::LaunchOptions options = typed;
   if (!options.scenario.empty()) {
+    options.scenario = scenario_file(typed.scenario);
     const game::Scenario scenario = game::read_scenario(options.scenario);
     check_inputs(scenario);
     warn_about_inks(scenario);
@@ -113,7 +121,8 @@ void add_launch(CLI::App& app, Action& action) {
   const auto options = std::make_shared<runtime::LaunchOptions>();
   CLI::App& command = add_command(app, action, "launch",
                                   "Play a game: propose, measure, calibrate, diagnose, round by round", options, play);
-  command.add_option("SCENARIO", options->scenario, "Scenario file (launch/README.md)");
+  command.add_option("SCENARIO", options->scenario,
+                     "Scenario file (launch/README.md), or the name of one that comes with nacre, such as demo");
   command.add_option("--resume", options->resume, "Folder of a run to continue");
   command.add_option("--run", options->run_name, "Name of the run and its folder; default: date-time-scenario");
   command.add_option("--logs", options->logs, "Folder where the new run is kept; default: logs");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/files.hpp"
+#include "base/shipped_files.hpp"
 #include "command.hpp"
 #include "material/parameter_file.hpp"
 #include "output.hpp"
@@ -12,7 +13,6 @@
 #include "report/report.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
-#include "shipped_files.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::cli {
@@ -34,9 +34,9 @@ int report(const Options& options) {
   }
   if (options.render)
     write_file_atomically(page, report::render_report(store::read_run_record(database), run.manifest.run_id));
-  const std::filesystem::path thesis = shipped_file("data/thesis");
+  const std::filesystem::path thesis = shipped_folder() / "data" / "thesis";
   if (!std::filesystem::exists(thesis))
-    remark("data/thesis was not found, neither here nor above the program: the thesis' figures are left out");
+    remark("data/thesis was not found, neither beside the program nor here: the thesis' figures are left out");
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
   prepare_output_folder(folder.string());
   report::write_paper(folder, report::read_paper_source(run.folder, run.manifest.run_id,

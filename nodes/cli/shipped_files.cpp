@@ -1,21 +1,48 @@
 #include "shipped_files.hpp"
 
+#include <algorithm>
 #include <system_error>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "base/result.hpp"
+#include "base/shipped_files.hpp"
+#include "runtime/process.hpp"
 
 namespace nacre::cli {
+namespace {
 
-std::filesystem::path shipped_file(const std::filesystem::path& name) {
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_of_scenarios() {
+  std::vector<std::string> names;
   std::error_code unreadable;
-  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  while (folder.has_parent_path() && folder != folder.root_path()) {
-    folder = folder.parent_path();
-    if (std::filesystem::exists(folder / name, unreadable)) return folder / name;
-  }
-  return name;
+  for (const auto& entry : fs::directory_iterator(shipped_folder() / "launch", unreadable))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
 }
 
-std::filesystem::path discretisation_floor_file(const std::string& given) {
-  return given.empty() ? shipped_file("data/discretisation_floor.toml") : std::filesystem::path(given);
+}  // namespace
+
+fs::path discretisation_floor_file(const std::string& given) {
+  return given.empty() ? shipped_folder() / "data" / "discretisation_floor.toml" : fs::path(given);
+}
+
+fs::path scenario_file(const fs::path& typed) {
+  std::error_code unreadable;
+  if (typed.has_parent_path() || typed.has_extension() || fs::exists(typed, unreadable)) return typed;
+  const std::vector<std::string> names = names_of_scenarios();
+  if (std::ranges::count(names, typed.string()) > 0)
+    return shipped_folder() / "launch" / fmt::format("{}.toml", typed.string());
+  throw InputError::format("{}: no such scenario: expected a file{}{}", typed.string(),
+                           names.empty() ? "" : " or one of ", fmt::join(names, ", "));
+}
+
+fs::path page_folder() {
+  if (const auto installed = installed_folder()) return *installed / "web";
+  return runtime::this_program().parent_path().parent_path() / "web";
 }
 
 }  // namespace nacre::cli

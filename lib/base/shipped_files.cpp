@@ -1,0 +1,44 @@
+#include "base/shipped_files.hpp"
+
+#include <string>
+#include <system_error>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// PREFIX/bin, or bin/ of the build; empty where /proc does not say.
+fs::path program_folder() {
+  std::error_code unreadable;
+  return fs::read_symlink("/proc/self/exe", unreadable).parent_path();
+}
+
+}  // namespace
+
+std::optional<fs::path> installed_folder() {
+  std::error_code unreadable;
+  const fs::path folder = program_folder().parent_path() / "share" / "nacre";
+  return fs::is_directory(folder, unreadable) ? std::optional(folder) : std::nullopt;
+}
+
+fs::path shipped_folder() {
+  if (const auto installed = installed_folder()) return *installed;
+  std::error_code unreadable;
+  for (fs::path folder = program_folder(); folder.has_relative_path(); folder = folder.parent_path())
+    if (fs::is_directory(folder / "data" / "thesis", unreadable)) return folder;
+  return ".";
+}
+
+std::string build_commit() try {
+  const fs::path file = installed_folder().value_or(program_folder().parent_path()) / "commit";
+  const std::string text = read_file(file);
+  return text.substr(0, text.find('\n'));
+} catch (const InputError&) {
+  return "unknown";
+}
+
+}  // namespace nacre

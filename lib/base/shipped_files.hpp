@@ -1,0 +1,21 @@
+#pragma once
+// Where that stands which comes with nacre: data/, launch/ (scenarios), the page, the manual.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace nacre {
+
+/// Of a program installed as PREFIX/bin/PROGRAM: PREFIX/share/nacre. Nothing for one that runs where it was built.
+std::optional<std::filesystem::path> installed_folder();
+
+/// The folder that holds data/ and launch/: the installed one, else the source tree above the program, else the
+/// working folder.
+std::filesystem::path shipped_folder();
+
+/// The commit that the program was built from, "+changes" appended when the sources differed from it; "unknown" where
+/// they were no git repository. From the file that every build writes, so that no program depends on it.
+std::string build_commit();
+
+}  // namespace nacre
