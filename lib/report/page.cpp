@@ -11,7 +11,8 @@ std::string render_page(const PageHead& head, const std::vector<Exhibit>& exhibi
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "img-src data:\">\n"
       "<title>{}</title>\n<style>{}{}{}{}{}</style>\n</head>\n<body>\n<main>\n",
       escaped(head.title), phase_colours(), kLightColours, kDarkColours, kFigureStyle, kPageStyle);
   page += fmt::format("<header>\n<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n{}{}</header>\n", escaped(head.eyebrow),

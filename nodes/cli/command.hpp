@@ -59,6 +59,7 @@ inline CLI::Option* add_ranges(CLI::App& command, std::string& file, const std::
       "File with the ranges of the parameters, for other inks (docs/FORMATS.md); default: " + otherwise);
 }
 
+void add_show(CLI::App& app, Action& action);
 void add_simulate(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
 void add_explore(CLI::App& app, Action& action);
