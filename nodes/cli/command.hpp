@@ -85,5 +85,6 @@ void add_report(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 void add_rebuild(CLI::App& app, Action& action);
 void add_backup(CLI::App& app, Action& action);
+void add_manual(CLI::App& app, Action& action);
 
 }  // namespace nacre::cli
