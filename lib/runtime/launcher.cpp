@@ -18,6 +18,7 @@
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "nacre/run_t.hpp"
+#include "runtime/debugger.hpp"
 #include "runtime/endpoint.hpp"
 #include "runtime/interrupts.hpp"
 #include "runtime/live_display.hpp"
@@ -74,25 +75,30 @@ std::unique_ptr<PortReservation> reserve_port(const LaunchOptions& options, cons
   }
 }
 
-/// Nodes that go by another machine must be nodes of the run, and the run must reach that machine.
-void expect_nodes(const LaunchOptions& options, const game::Scenario& scenario) {
-  const std::vector<std::string> nodes = scenario.nodes();
-  for (const auto* named : {&options.elsewhere, &options.only}) {
-    for (const std::string& node : *named) {
-      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
-      throw InputError::format("{}: no node of this run: expected one of {}", node, fmt::join(nodes, ", "));
-    }
-    if (named->empty() || scenario.hosts == "lan") continue;
-    throw InputError::format(
-        "the scenario says hosts = \"{}\": no message leaves this machine; expected hosts = \"lan\"", scenario.hosts);
-  }
+bool names(const std::vector<std::string>& list, const std::string& node) {
+  return std::find(list.begin(), list.end(), node) != list.end();
 }
 
 bool is_started_here(const LaunchOptions& options, const std::string& node) {
-  const auto names = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), node) != list.end();
-  };
-  return options.only.empty() ? !names(options.elsewhere) : names(options.only);
+  return options.only.empty() ? !names(options.elsewhere, node) : names(options.only, node);
+}
+
+/// Nodes that go by another machine must be nodes of the run, and the run must reach that machine.
+void expect_nodes(const LaunchOptions& options, const game::Scenario& scenario) {
+  const std::vector<std::string> nodes = scenario.nodes();
+  for (const std::string& node : options.debug) {
+    if (names(nodes, node) && !is_started_here(options, node))
+      throw InputError::format("--debug {}: expected a node that is started here", node);
+  }
+  for (const auto* named : {&options.elsewhere, &options.only, &options.debug}) {
+    for (const std::string& node : *named) {
+      if (names(nodes, node)) continue;
+      throw InputError::format("{}: no node of this run: expected one of {}", node, fmt::join(nodes, ", "));
+    }
+    if (named->empty() || named == &options.debug || scenario.hosts == "lan") continue;
+    throw InputError::format(
+        "the scenario says hosts = \"{}\": no message leaves this machine; expected hosts = \"lan\"", scenario.hosts);
+  }
 }
 
 fs::path program_of(const LaunchOptions& options, const std::string& node) {
@@ -130,6 +136,7 @@ class Launch {
   bool is_guest() const { return !options_.only.empty(); }
   void start_recorder();
   void open_endpoint();
+  std::vector<std::string> command_of(const std::string& node) const;
   void start_nodes();
   void turn(std::chrono::milliseconds wait);
   void take_message(const Received& received);
@@ -183,6 +190,15 @@ void Launch::open_endpoint() {
   endpoint_ = std::move(*endpoint);
 }
 
+std::vector<std::string> Launch::command_of(const std::string& node) const {
+  std::vector<std::string> command = {
+      program_of(options_, node).string(), "--run-dir", run_.path().string(),   "--scenario",
+      run_.scenario_file().string(),       "--run-id",  run_.manifest().run_id, "--port",
+      std::to_string(port_->port())};
+  if (names(options_.debug, node)) command.push_back("--wait-for-debugger");
+  return command;
+}
+
 void Launch::start_nodes() {
   for (const std::string& name : run_.scenario().nodes()) {
     if (!is_started_here(options_, name)) {
@@ -190,13 +206,11 @@ void Launch::start_nodes() {
           SupervisedNode::Settings{.name = name, .command = {}, .log_file = {}, .restarts = {}}));
       continue;
     }
-    nodes_.push_back(std::make_unique<SupervisedNode>(
-        SupervisedNode::Settings{.name = name,
-                                 .command = {program_of(options_, name).string(), "--run-dir", run_.path().string(),
-                                             "--scenario", run_.scenario_file().string(), "--run-id",
-                                             run_.manifest().run_id, "--port", std::to_string(port_->port())},
-                                 .log_file = run_.node_folder(name) / "output.log",
-                                 .restarts = options_.restarts}));
+    nodes_.push_back(
+        std::make_unique<SupervisedNode>(SupervisedNode::Settings{.name = name,
+                                                                  .command = command_of(name),
+                                                                  .log_file = run_.node_folder(name) / "output.log",
+                                                                  .restarts = options_.restarts}));
     nodes_.back()->start();
   }
 }
@@ -230,6 +244,7 @@ void Launch::take_message(const Received& received) {
 void Launch::show_output(SupervisedNode& node) {
   for (const std::string& line : node.take_output()) {
     if (&node == recorder_.get() && line.rfind("recording", 0) == 0) recorder_is_ready_ = true;
+    if (line.starts_with(kWaitsForDebugger)) display_.say(fmt::format("{} {}", node.name(), line));
     if (!display_.on_terminal()) std::fprintf(stderr, "%s | %s\n", node.name().c_str(), line.c_str());
   }
 }

@@ -22,6 +22,7 @@ struct LaunchOptions {
   std::filesystem::path nacre;                ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
   std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
+  std::vector<std::string> debug;      ///< nodes that wait for a debugger at their start
   std::vector<std::string> only;       ///< join with these nodes a run that another machine has launched
 };
 

@@ -10,6 +10,7 @@
 #include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
+#include "runtime/debugger.hpp"
 #include "runtime/run_folder.hpp"
 #include "runtime/version.hpp"
 
@@ -35,6 +36,7 @@ void add_node_options(CLI::App& app, NodeOptions& options) {
   app.add_option("--threads", options.threads, "threads for long work")->check(CLI::Range(0, 4096));
   app.add_option("--epoch", options.epoch, "start of this process in microseconds since 1970 (default: now)");
   app.add_option("--url", options.url, "LCM address instead of the port's");
+  app.add_flag("--wait-for-debugger", options.wait_for_debugger, "wait until a debugger has attached");
   app.add_flag("!--detached", options.follow_parent, "go on when the process that started the node ends");
 }
 
@@ -54,6 +56,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
     return status == 0 ? 0 : 2;
   }
   try {
+    if (options.wait_for_debugger) wait_for_debugger();
     options.run_dir = without_last_slash(std::filesystem::absolute(options.run_dir).lexically_normal());
     expect_run(options);
     if (options.scenario_file.empty()) options.scenario_file = options.run_dir / "scenario.toml";

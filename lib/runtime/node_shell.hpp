@@ -25,6 +25,7 @@ struct NodeOptions {
   std::int64_t epoch = 0;     ///< --epoch; 0: now
   bool lan = false;           ///< the run spans hosts (from the scenario)
   bool follow_parent = true;  ///< --detached turns it off: else the node ends when the process that started it does
+  bool wait_for_debugger = false;         ///< --wait-for-debugger: before anything else
   std::vector<std::string> participants;  ///< nodes of the run (from the scenario)
   std::string url;                        ///< --url overrides port; for tests
 

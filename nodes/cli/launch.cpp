@@ -141,6 +141,8 @@ void add_launch(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.001, 30.0));
   command.add_option("--elsewhere", options->elsewhere,
                      "Node that is started on another machine (hosts = \"lan\"); repeatable");
+  command.add_option("--debug", options->debug,
+                     "Node that waits at its start until a debugger attaches; its process number is said; repeatable");
   command.add_option("--only", options->only,
                      "With --resume: start this node alone, for a run launched on another machine; repeatable");
 }

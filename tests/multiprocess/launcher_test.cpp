@@ -108,6 +108,25 @@ TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
                     HasSubstr("it is started again in 1 s"), HasSubstr("analyser started again")));
 }
 
+TEST_F(Launcher, ANodeToBeDebuggedSaysWhereItWaitsUntilCtrlC) {
+  const auto process = start({scenario(), "--run", "game", "--debug", "analyser"});
+  std::string said;
+  ASSERT_TRUE(wait_until_said(*process, "analyser waits for a debugger: gdb -p ", said)) << said;
+  const std::vector<int> waiting = processes_with("--wait-for-debugger");
+  ASSERT_EQ(waiting.size(), 1U);
+  EXPECT_THAT(said, HasSubstr("gdb -p " + std::to_string(waiting.front())));
+  process->signal_group(SIGINT);
+  EXPECT_EQ(wait_for_end(*process, said).exit_status, 1) << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("analyser stopped"), Not(HasSubstr("every node is ready"))));
+  EXPECT_THAT(processes_with("--wait-for-debugger"), IsEmpty());
+}
+
+TEST_F(Launcher, OnlyANodeThatIsStartedHereCanBeDebugged) {
+  const Outcome unknown = run_nacre(arguments({scenario(), "--run", "game", "--debug", "analyzer"}));
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("analyzer: no node of this run: expected one of"));
+}
+
 TEST_F(Launcher, NodeThatDiesTooOftenEndsTheRunWithItsName) {
   misbehave("analyser:crash=1000");
   const Outcome outcome = run_nacre(arguments({scenario(), "--run", "game", "--restart-s", "0.01"}));
