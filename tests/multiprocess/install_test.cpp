@@ -1,0 +1,121 @@
+// nacre as it is installed, under a prefix that was moved, with neither the sources nor the build in sight.
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+
+#include "base/files.hpp"
+#include "program_test.hpp"
+#include "short_game.hpp"
+
+namespace nacre {
+namespace {
+
+using runtime::ChildProcess;
+
+const fs::path kSources = NACRE_SOURCE_DIR, kBuild = fs::path(NACRE_BINARY_DIR).parent_path();
+
+/// Runs a command in a folder, with empty folders in place of the sources and the build.
+std::vector<std::string> hidden(const fs::path& folder, const std::vector<std::string>& words) {
+  std::vector<std::string> all = {"unshare",
+                                  "--mount",
+                                  "sh",
+                                  "-c",
+                                  "cd \"$0\" && mount -t tmpfs none \"$1\" && mount -t tmpfs none \"$2\" && shift 2 && "
+                                  "exec \"$@\"",
+                                  folder.string(),
+                                  kBuild.string(),
+                                  kSources.string()};
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+class Installed : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fresh_folder("installed");
+    const fs::path first = folder_ / "first";
+    const auto installed =
+        runtime::ask_program({NACRE_CMAKE, "--install", kBuild.string(), "--prefix", first.string()});
+    ASSERT_TRUE(installed.end.orderly()) << installed.output;
+    fs::create_directories(prefix().parent_path());
+    fs::rename(first, prefix());
+    fs::create_directories(work());
+  }
+  void SetUp() override {
+    const auto tried = runtime::ask_program(hidden(work(), {"sh", "-c", "test ! -e \"$0\"/CMakeLists.txt", kSources}));
+    if (!tried.end.orderly()) GTEST_SKIP() << "nothing can be mounted here: " << tried.output;
+  }
+  static fs::path prefix() { return folder_ / "moved" / "here"; }
+  static fs::path work() { return folder_ / "work"; }
+  static std::vector<std::string> nacre(std::vector<std::string> words) {
+    words.insert(words.begin(), (prefix() / "bin/nacre").string());
+    return hidden(work(), words);
+  }
+  /// All that it prints; the exit status is demanded.
+  static std::string said_by(const std::vector<std::string>& words, int status = 0) {
+    ChildProcess process(nacre(words));
+    std::string said;
+    const runtime::ProcessEnd end = wait_for_end(process, said, 100.0);
+    EXPECT_EQ(end.exit_status, status) << said;
+    EXPECT_EQ(end.signal, 0) << said;
+    return said;
+  }
+
+  inline static fs::path folder_;
+};
+
+TEST_F(Installed, TheVersionNamesTheCommitThatWasBuiltAndTheKernel) {
+  const std::string commit = read_file(prefix() / "share/nacre/commit");
+  const std::string said = said_by({"--version"});
+  EXPECT_THAT(said, testing::MatchesRegex("nacre [0-9.]+, commit (unknown|[0-9a-f]{12}(\\+changes)?), kernel [0-9]+, "
+                                          "messages [0-9]+\n"));
+  EXPECT_THAT(said, HasSubstr("commit " + commit.substr(0, std::min<std::size_t>(12, commit.find('\n')))));
+}
+
+TEST_F(Installed, APublishedPatternBreaks) {
+  EXPECT_THAT(said_by({"show", "--fidelity", "tiny"}), HasSubstr("page: show/577fffe9fffdef.html"));
+  EXPECT_GT(fs::file_size(work() / "show/577fffe9fffdef.gif"), 10'000U);
+  EXPECT_THAT(read_file(work() / "show/577fffe9fffdef.html"), HasSubstr("data:image/gif;base64,R0lGODlh"));
+}
+
+TEST_F(Installed, AScenarioIsCalledByItsName) {
+  EXPECT_THAT(said_by({"launch", "dmeo"}, 2), AllOf(HasSubstr("no such scenario"), HasSubstr("demo, families")));
+  EXPECT_THAT(said_by({"doctor", "--scenario", "dmeo"}, 2), HasSubstr("no such scenario"));
+}
+
+TEST_F(Installed, AGameIsPlayedToItsEndReportedAndShown) {
+  std::ofstream(work() / "short.toml") << short_game("short", 1);
+  EXPECT_THAT(said_by({"launch", "short.toml", "--run", "game"}), HasSubstr("the game is over"));
+  const fs::path run = work() / "logs/game";
+  EXPECT_THAT(read_file(run / "manifest.json"),
+              HasSubstr("\"commit\": \"" + read_file(prefix() / "share/nacre/commit").substr(0, 7)));
+  EXPECT_THAT(said_by({"report", "logs/game"}), Not(HasSubstr("was not found"))) << "the thesis' tables";
+
+  ChildProcess dashboard(nacre({"dashboard", "logs/game", "--port", "0"}));
+  std::string said;
+  ASSERT_TRUE(wait_until_said(dashboard, "shows game", said)) << said;
+  const std::string port = said.substr(said.find("127.0.0.1:") + 10, said.find("/\n") - said.find("127.0.0.1:") - 10);
+  const auto answer = runtime::ask_program(
+      {"bash", "-c",
+       "exec 3<>/dev/tcp/127.0.0.1/$0; printf 'GET / HTTP/1.0\\r\\nHost: 127.0.0.1:'$0'\\r\\n\\r\\n' >&3; cat <&3",
+       port});
+  const bool has_page = fs::exists(prefix() / "share/nacre/web/index.html");
+  EXPECT_EQ(has_page, fs::exists(kBuild / "web/index.html"));
+  EXPECT_THAT(answer.output, has_page ? AllOf(HasSubstr(" 200 "), HasSubstr("page.js"))
+                                      : AllOf(HasSubstr(" 503 "), HasSubstr("not built")));
+  dashboard.signal_group(SIGINT);
+  EXPECT_EQ(wait_for_end(dashboard, said).exit_status, 0);
+}
+
+TEST_F(Installed, DataMessagesManualAndCompletionAreThere) {
+  for (const char* file : {"share/nacre/data/examples/round1/measurements.csv", "share/nacre/launch/demo.toml",
+                           "share/nacre/lcmtypes/header_t.lcm", "share/man/man1/nacre.1", "share/man/man1/nacre-show.1",
+                           "share/bash-completion/completions/nacre", "share/zsh/site-functions/_nacre"})
+    EXPECT_TRUE(fs::is_regular_file(prefix() / file)) << file;
+}
+
+}  // namespace
+}  // namespace nacre
