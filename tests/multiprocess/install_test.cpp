@@ -2,9 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <set>
+#include <sstream>
+#include <vector>
 
 #include "base/files.hpp"
 #include "program_test.hpp"
@@ -115,6 +119,49 @@ TEST_F(Installed, DataMessagesManualAndCompletionAreThere) {
                            "share/nacre/lcmtypes/header_t.lcm", "share/man/man1/nacre.1", "share/man/man1/nacre-show.1",
                            "share/bash-completion/completions/nacre", "share/zsh/site-functions/_nacre"})
     EXPECT_TRUE(fs::is_regular_file(prefix() / file)) << file;
+}
+
+/// Names in a list "a (>= 1), b", without what is in brackets.
+std::set<std::string> names_in(const std::string& list) {
+  std::set<std::string> names;
+  std::istringstream words(list);
+  for (std::string each; std::getline(words, each, ',');) {
+    const std::size_t begin = each.find_first_not_of(' ');
+    if (begin != std::string::npos) names.insert(each.substr(begin, each.find_first_of(" \n", begin) - begin));
+  }
+  return names;
+}
+
+/// Of each library that the built programs name: its package, and what that package provides.
+std::vector<std::set<std::string>> packages_of_libraries() {
+  constexpr const char* kScript = R"sh(
+for program in "$0"/nacre "$0"/nacre_*; do readelf -d "$program"; done |
+  sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | sort -u |
+  while read -r library; do dpkg -S "*/$(dpkg-architecture -qDEB_HOST_MULTIARCH)/$library"; done |
+  cut -d: -f1 | sort -u | xargs dpkg-query -W -f '${Package}, ${Provides}\n' | sort -u)sh";
+  std::vector<std::set<std::string>> packages;
+  std::istringstream lines(runtime::ask_program({"sh", "-c", kScript, NACRE_BINARY_DIR}).output);
+  for (std::string line; std::getline(lines, line);) packages.push_back(names_in(line));
+  return packages;
+}
+
+TEST(Package, DependsOnThePackagesOfTheLibrariesThatProgramsName) {
+  if (runtime::ask_program({"dpkg-shlibdeps", "--version"}).end.exit_status == runtime::kProgramNotFound)
+    GTEST_SKIP() << "dpkg-dev is not installed";
+  const fs::path folder = fresh_folder("package");
+  const auto packed = runtime::ask_program({fs::path(NACRE_CMAKE).replace_filename("cpack"), "-G", "DEB", "-B", folder,
+                                            "--config", kBuild / "CPackConfig.cmake"});
+  ASSERT_TRUE(packed.end.orderly()) << packed.output;
+  const auto name = runtime::ask_program({"sh", "-c", "cd \"$0\" && ls *.deb", folder});
+  EXPECT_THAT(name.output, testing::MatchesRegex("nacre_[0-9.]+_[a-z0-9]+\\.deb\n"));
+  const auto depends = runtime::ask_program({"sh", "-c", "dpkg-deb -f \"$0\"/*.deb Depends", folder});
+  EXPECT_THAT(depends.output, HasSubstr("liblcm1"));
+  const std::set<std::string> named = names_in(depends.output);
+  const std::vector<std::set<std::string>> packages = packages_of_libraries();
+  EXPECT_EQ(named.size(), packages.size()) << depends.output;
+  for (const std::set<std::string>& package : packages)
+    EXPECT_TRUE(std::ranges::any_of(package, [&](const auto& each) { return named.contains(each); }))
+        << *package.begin() << " in " << depends.output;
 }
 
 }  // namespace
