@@ -1,5 +1,6 @@
 # What `cmake --install` puts under PREFIX, and what `cpack -G DEB` packs (needs dpkg-dev). Programs find share/nacre
 # beside their bin/ (base/shipped_files.hpp): PREFIX may be moved.
+# The networks (libtorch) stay out: only studies use them.
 include(GNUInstallDirs)
 set(shipped ${CMAKE_INSTALL_DATADIR}/nacre)
 
@@ -11,7 +12,8 @@ install(DIRECTORY lcmtypes DESTINATION ${shipped} FILES_MATCHING PATTERN "*.lcm"
 install(FILES ${CMAKE_BINARY_DIR}/commit DESTINATION ${shipped})
 install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR})
 # Debian's zsh looks here in /usr, in zsh/site-functions only in /usr/local.
-install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/zsh/site-functions/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/zsh/site-functions/
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "studies" EXCLUDE PATTERN "*.md" PATTERN "*.gif" PATTERN "*.png")
@@ -22,19 +24,11 @@ install(CODE "if(NOT EXISTS \"${CMAKE_BINARY_DIR}/web/index.html\")
   message(STATUS \"without the dashboard's page: npm --prefix web ci && npm --prefix web run build makes it\")
 endif()")
 
-# Not in the package: it would need libtorch's 145 packages.
-if(TARGET nacre_networks)
-  install(TARGETS nacre_networks LIBRARY DESTINATION lib/nacre COMPONENT networks OPTIONAL)
-endif()
-
 set(CPACK_PACKAGE_NAME nacre)
 set(CPACK_PACKAGE_CONTACT "nacre <nacre@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Discovery of stiff and tough two-material microstructures")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL Unspecified)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
-set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
@@ -14,7 +13,6 @@
 
 #include "base/hash.hpp"
 #include "base/result.hpp"
-#include "base/shipped_files.hpp"
 #include "base/statistics.hpp"
 
 namespace nacre::surrogate {
@@ -23,17 +21,10 @@ namespace {
 using MakeNetwork = Network* (*)(const NetworkSettings&);
 
 #ifdef NACRE_NETWORK_LIBRARY
-/// The library of this installation, PREFIX/lib/nacre, or of this build.
-std::string library_file() {
-  const std::filesystem::path built(NACRE_NETWORK_LIBRARY);
-  const auto installed = installed_folder();
-  return installed ? (*installed / "../../lib/nacre" / built.filename()).lexically_normal().string() : built.string();
-}
-
-/// The maker in that library; loaded once and kept.
+/// The maker in the library beside this build; loaded once and kept.
 MakeNetwork maker() {
   static const MakeNetwork found = [] {
-    void* library = ::dlopen(library_file().c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* library = ::dlopen(NACRE_NETWORK_LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (!library) throw InputError::format("the networks cannot be loaded: {}", ::dlerror());
     return reinterpret_cast<MakeNetwork>(::dlsym(library, "nacre_make_network"));
   }();
