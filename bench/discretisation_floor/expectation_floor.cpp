@@ -21,15 +21,21 @@ std::string specimen_key(const FloorPlan& plan, std::size_t layout, std::size_t 
   return fmt::format("{} cv {} specimen {}", toughness_key(plan, layout, set, refinement), strength_cv, specimen);
 }
 
-std::vector<double> finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
-                             double strength_cv, int count, const study::StudyTable& table) {
-  std::vector<double> values_pa;
+/// T and peak stress of finished specimens, Pa.
+struct Finished {
+  std::vector<double> toughness_pa, peak_pa;
+};
+
+Finished finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, double strength_cv,
+                  int count, const study::StudyTable& table) {
+  Finished result;
   for (int specimen = 0; specimen < count; ++specimen) {
     const auto row = table.find(specimen_key(plan, layout, set, refinement, strength_cv, specimen));
     if (!row || (*row)[0] <= 0.0) break;
-    values_pa.push_back((*row)[0]);
+    result.toughness_pa.push_back((*row)[0]);
+    result.peak_pa.push_back((*row)[1]);
   }
-  return values_pa;
+  return result;
 }
 
 /// Relative variances and covariance of the specimens of one design.
@@ -47,7 +53,7 @@ Scatter scatter_of(const DesignPair& design) {
   const double coarse_middle = mean(coarse), fine_middle = mean(fine);
   for (std::size_t i = 0; i < common; ++i)
     scatter.both += (coarse[i] - coarse_middle) * (fine[i] - fine_middle) / coarse_mean / fine_mean;
-  scatter.both /= static_cast<double>(common) - 1.0;
+  scatter.both /= std::max(1.0, static_cast<double>(common) - 1.0);
   return scatter;
 }
 
@@ -81,8 +87,7 @@ Comparison compare_means(const std::vector<const DesignPair*>& designs) {
 /// Specimens that every design has on both meshes.
 std::size_t common_specimens(const std::vector<const DesignPair*>& designs) {
   std::size_t count = SIZE_MAX;
-  for (const DesignPair* design : designs)
-    count = std::min({count, design->coarse_pa.size(), design->fine_pa.size()});
+  for (const DesignPair* design : designs) count = std::min({count, design->coarse_pa.size(), design->fine_pa.size()});
   return count;
 }
 
@@ -103,22 +108,40 @@ Comparison compare_ones(const std::vector<const DesignPair*>& designs) {
   return all;
 }
 
+/// Squared correlation of the log ratios of T and of peak stress, both about the mean of their parameter set.
+double peak_share(const std::map<std::size_t, std::vector<const DesignPair*>>& by_set) {
+  double both = 0.0, toughness = 0.0, peak = 0.0;
+  for (const auto& [set, own] : by_set) {
+    const double shift = compare_means(own).shift;
+    double middle = 0.0;
+    for (const DesignPair* design : own) middle += design->log_peak_ratio / static_cast<double>(own.size());
+    for (const DesignPair* design : own) {
+      const double of_toughness = std::log(mean(design->fine_pa) / mean(design->coarse_pa)) - shift,
+                   of_peak = design->log_peak_ratio - middle;
+      both += of_toughness * of_peak, toughness += of_toughness * of_toughness, peak += of_peak * of_peak;
+    }
+  }
+  return toughness > 0.0 && peak > 0.0 ? both * both / (toughness * peak) : 0.0;
+}
+
 /// A figure of the floor and how it is printed.
 struct Figure {
   const char* words;
-  double ExpectationFloor::* value;
+  bool of_scatter;  ///< needs at least two specimens of every design
+  double ExpectationFloor::*value;
 };
 constexpr Figure kFigures[] = {
-    {"mean of log T(fine)/T(coarse)", &ExpectationFloor::shift},
-    {"sd after one factor per set, means of specimens", &ExpectationFloor::sd},
-    {"share of the finite number of specimens", &ExpectationFloor::finite_n_sd},
-    {"sd of log E[T], that share taken off", &ExpectationFloor::expected_sd},
-    {"Spearman, means of specimens", &ExpectationFloor::spearman},
-    {"sd after one factor per set, single specimens", &ExpectationFloor::one_sd},
-    {"Spearman, single specimens", &ExpectationFloor::one_spearman},
-    {"scatter between specimens, coarse", &ExpectationFloor::coarse_scatter},
-    {"scatter between specimens, fine", &ExpectationFloor::fine_scatter},
-    {"correlation of one specimen's departure on both meshes", &ExpectationFloor::same_crack},
+    {"mean of log T(fine)/T(coarse)", false, &ExpectationFloor::shift},
+    {"sd after one factor per set, means of specimens", false, &ExpectationFloor::sd},
+    {"share of the finite number of specimens", true, &ExpectationFloor::finite_n_sd},
+    {"sd of log E[T], that share taken off", true, &ExpectationFloor::expected_sd},
+    {"Spearman, means of specimens", false, &ExpectationFloor::spearman},
+    {"sd after one factor per set, single specimens", false, &ExpectationFloor::one_sd},
+    {"Spearman, single specimens", false, &ExpectationFloor::one_spearman},
+    {"scatter between specimens, coarse", true, &ExpectationFloor::coarse_scatter},
+    {"scatter between specimens, fine", true, &ExpectationFloor::fine_scatter},
+    {"share of that variance with the change of peak stress", false, &ExpectationFloor::peak_share},
+    {"correlation of one specimen's departure on both meshes", true, &ExpectationFloor::same_crack},
 };
 
 /// Designs drawn with replacement, within every parameter set as many as it has.
@@ -148,8 +171,7 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
           const int refinement = specimens.refinement * (fine ? 2 : 1);
           const std::size_t set = (i + pass) % plan.sets.size();
           const std::string key = specimen_key(plan, i, set, refinement, specimens.strength_cv, specimen);
-          wanted.push_back(wanted_fracture_test(key, plan, i, set,
-                                                {.refinement = refinement, .specimen = specimen},
+          wanted.push_back(wanted_fracture_test(key, plan, i, set, {.refinement = refinement, .specimen = specimen},
                                                 specimens.strength_cv));
         }
   return wanted;
@@ -158,14 +180,19 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
 std::vector<DesignPair> finished_designs(const FloorPlan& plan, const SpecimenPlan& specimens,
                                          const study::StudyTable& table) {
   std::vector<DesignPair> designs;
-  const auto values_pa = [&](std::size_t layout, std::size_t set, bool fine) {
+  const auto values = [&](std::size_t layout, std::size_t set, bool fine) {
     return finished(plan, layout, set, specimens.refinement * (fine ? 2 : 1), specimens.strength_cv,
                     fine ? specimens.fine : specimens.coarse, table);
   };
   for (std::size_t i = 0; i < plan.layouts.size(); ++i)
     for (std::size_t set = 0; set < plan.sets.size(); ++set) {
-      DesignPair design{set, values_pa(i, set, false), values_pa(i, set, true)};
-      if (design.coarse_pa.size() >= 2 && design.fine_pa.size() >= 2) designs.push_back(std::move(design));
+      const Finished coarse = values(i, set, false), fine = values(i, set, true);
+      const auto enough = [](const Finished& is, int wanted) {
+        return static_cast<int>(is.peak_pa.size()) >= std::min(2, wanted);
+      };
+      if (!enough(coarse, specimens.coarse) || !enough(fine, specimens.fine)) continue;
+      designs.push_back(
+          {set, coarse.toughness_pa, fine.toughness_pa, std::log(mean(fine.peak_pa) / mean(coarse.peak_pa))});
     }
   return designs;
 }
@@ -191,6 +218,7 @@ ExpectationFloor expectation_floor(const std::vector<DesignPair>& designs) {
   }
   variance /= freedom;
   floor.sd = std::sqrt(variance);
+  floor.peak_share = peak_share(by_set);
   floor.one_sd = std::sqrt(one_variance / freedom);
   floor.finite_n_sd = std::sqrt(std::max(0.0, noise));
   floor.expected_sd = std::sqrt(std::max(0.0, variance - noise));
@@ -210,7 +238,10 @@ std::string expectation_table(const std::vector<DesignPair>& designs, std::uint6
   for (int b = 0; b < kBootstraps; ++b) draws.push_back(expectation_floor(resampled(by_set, random)));
   const ExpectationFloor floor = expectation_floor(designs);
   std::string text = "| figure | value | 90 % interval |\n| --- | --- | --- |\n";
+  const bool scatters = std::ranges::all_of(
+      designs, [](const DesignPair& design) { return std::min(design.coarse_pa.size(), design.fine_pa.size()) > 1; });
   for (const Figure& figure : kFigures) {
+    if (figure.of_scatter && !scatters) continue;
     std::vector<double> values;
     for (const ExpectationFloor& draw : draws) values.push_back(draw.*figure.value);
     text += fmt::format("| {} | {:.3f} | {:.3f} to {:.3f} |\n", figure.words, floor.*figure.value,

@@ -25,21 +25,24 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
 struct DesignPair {
   std::size_t set = 0;
   std::vector<double> coarse_pa, fine_pa;
+  double log_peak_ratio = 0.0;  ///< log of the ratio of mean peak stresses, fine over coarse
 };
-/// What the table holds of at least two specimens on both meshes, up to the first that failed.
+/// What the table holds of at least two specimens on both meshes (one where one is planned), up to the first that
+/// failed.
 std::vector<DesignPair> finished_designs(const FloorPlan& plan, const SpecimenPlan& specimens,
                                          const study::StudyTable& table);
 
 /// Standard deviations of natural logarithms of T(fine) / T(coarse), after one factor per parameter set.
 struct ExpectationFloor {
-  double shift = 0.0;         ///< mean of log ratio of the means
-  double sd = 0.0;            ///< of the log ratio of the means as measured
-  double finite_n_sd = 0.0;   ///< the share of it that the finite number of specimens makes
-  double expected_sd = 0.0;   ///< sqrt(sd^2 - finite_n_sd^2), 0 where that is negative
-  double spearman = 0.0;      ///< of the means, mean over the parameter sets
-  double one_sd = 0.0;        ///< of the log ratio of single specimens
-  double one_spearman = 0.0;  ///< of single specimens, mean over specimens
+  double shift = 0.0;                               ///< mean of log ratio of the means
+  double sd = 0.0;                                  ///< of the log ratio of the means as measured
+  double finite_n_sd = 0.0;                         ///< the share of it that the finite number of specimens makes
+  double expected_sd = 0.0;                         ///< sqrt(sd^2 - finite_n_sd^2), 0 where that is negative
+  double spearman = 0.0;                            ///< of the means, mean over the parameter sets
+  double one_sd = 0.0;                              ///< of the log ratio of single specimens
+  double one_spearman = 0.0;                        ///< of single specimens, mean over specimens
   double coarse_scatter = 0.0, fine_scatter = 0.0;  ///< between specimens: sd over mean of T, rms over designs
+  double peak_share = 0.0;  ///< of sd^2, what the changes of peak stress explain linearly: 0 to 1
   double same_crack = 0.0;  ///< correlation between the meshes of a specimen's departure from the mean of its design
 };
 
@@ -48,7 +51,8 @@ struct ExpectationFloor {
 /// relative covariance of the specimens that both have.
 ExpectationFloor expectation_floor(const std::vector<DesignPair>& designs);
 
-/// The figures with 90 % intervals of a bootstrap over designs, as a table for docs/studies/toughness.md.
+/// The figures that so many specimens have, with 90 % intervals of a bootstrap over designs, as a table for
+/// docs/studies/toughness.md.
 std::string expectation_table(const std::vector<DesignPair>& designs, std::uint64_t seed);
 
 }  // namespace nacre::discretisation_floor

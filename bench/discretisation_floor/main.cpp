@@ -64,9 +64,9 @@ int main(int argc, char** argv) {
   app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")
       ->check(CLI::Range(1, 100));
   app.add_option("--specimens", options.specimens.coarse, "Compare means over so many specimens of a design instead")
-      ->check(CLI::Range(2, 1000));
+      ->check(CLI::Range(1, 1000));
   app.add_option("--fine-specimens", options.specimens.fine, "On the finer mesh; as many by default")
-      ->check(CLI::Range(2, 1000));
+      ->check(CLI::Range(1, 1000));
   app.add_option("--strength-cv", options.specimens.strength_cv, "Variation of W between their regions")
       ->capture_default_str();
   app.add_option("--refine", options.specimens.refinement, "The coarser mesh has elements of h / so many")

@@ -12,10 +12,8 @@ ExpectedToughness expected_toughness_of(std::vector<ToughnessResult> specimens) 
   assert(!specimens.empty());
   std::vector<double> values_pa;
   for (const ToughnessResult& specimen : specimens) values_pa.push_back(specimen.toughness_pa);
-  ExpectedToughness expected{.toughness_pa = mean(values_pa),
-                             .toughness_sd_pa = {},
-                             .toughness_se_pa = {},
-                             .specimens = std::move(specimens)};
+  ExpectedToughness expected{
+      .toughness_pa = mean(values_pa), .toughness_sd_pa = {}, .toughness_se_pa = {}, .specimens = std::move(specimens)};
   if (values_pa.size() < 2) return expected;
   expected.toughness_sd_pa = standard_deviation(values_pa);
   expected.toughness_se_pa = *expected.toughness_sd_pa / std::sqrt(static_cast<double>(values_pa.size()));

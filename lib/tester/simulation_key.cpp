@@ -59,8 +59,8 @@ std::string simulation_key(const Simulation& simulation, TestKind kind) {
                                 !simulation.design.layout()->has_eightfold_symmetry();
   const bool varies = kind == TestKind::toughness && simulation.strength_cv != 0.0;
   const std::string inputs =
-      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}{}", kKernelVersion,
-                  to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
+      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}{}",
+                  kKernelVersion, to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
                   exact(simulation.conditions.orientation_deg), is_turned_coupon ? " with its layout" : "",
                   parameter_text(simulation.parameters, kind), model_text(simulation, kind),
                   varies ? fmt::format("strength_cv {}\n", exact(simulation.strength_cv)) : "");

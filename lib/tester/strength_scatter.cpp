@@ -23,8 +23,7 @@ void scatter_strength(fem::Grid& grid, int refinement, double variation, std::st
   if (variation == 0.0) return;
   const double shape = weibull_shape(variation), scale = 1.0 / std::tgamma(1.0 + 1.0 / shape);
   RandomStream random(content_hash64(specimen), "strength_scatter");
-  multiply_strengths(grid, refinement,
-                     [&] { return scale * std::pow(-std::log1p(-random.uniform()), 1.0 / shape); });
+  multiply_strengths(grid, refinement, [&] { return scale * std::pow(-std::log1p(-random.uniform()), 1.0 / shape); });
 }
 
 }  // namespace nacre::tester

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +9,6 @@
 #include "base/parallel.hpp"
 #include "base/processor_time.hpp"
 #include "command.hpp"
-#include "crack/crack_record.hpp"
-#include "crack/mechanisms.hpp"
 #include "film/film_file.hpp"
 #include "film_files.hpp"
 #include "material/extensions.hpp"
@@ -22,8 +19,7 @@
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "tester/expected_toughness.hpp"
-#include "tester/modulus.hpp"
+#include "simulated_design.hpp"
 #include "tester/strength_field.hpp"
 
 namespace nacre::cli {
@@ -39,36 +35,10 @@ struct Options {
   std::string film;
   int frame_count = film::kFrames;
   int film_width = 960;
-  int specimens = 1;
-  double strength_cv = 0.0;
-  int refine = 1;
+  SpecimenChoice choice;
   bool json = false;
 
-  /// Whether T is told as a mean over specimens.
-  bool tells_mean() const { return specimens > 1 || strength_cv > 0.0; }
   bool wants_films() const { return !frames.empty() || !film.empty(); }
-};
-
-/// A design and the results of its tests.
-struct SimulatedDesign {
-  std::string argument;
-  pattern::Design design;
-  std::optional<Result<tester::ModulusResult>> modulus;
-  std::vector<Result<tester::ToughnessResult>> pulled;  ///< toughness test of each specimen
-  std::optional<tester::ExpectedToughness> toughness;   ///< once every specimen has broken
-  std::optional<crack::CrackRecord> crack;              ///< of specimen 0
-  crack::Mechanisms mechanisms;
-  std::vector<double> kernel_s;  ///< processor time of each toughness test
-
-  /// Why there is no number; empty when every test that was run succeeded.
-  std::string failure() const {
-    if (modulus && !*modulus) return "modulus: " + modulus->error().message;
-    for (std::size_t i = 0; i < pulled.size(); ++i) {
-      const std::string which = pulled.size() > 1 ? fmt::format(" of specimen {}", i) : "";
-      if (!pulled[i]) return fmt::format("toughness{}: {}", which, pulled[i].error().message);
-    }
-    return "";
-  }
 };
 
 std::vector<SimulatedDesign> read_designs(const std::vector<std::string>& arguments) {
@@ -105,19 +75,19 @@ bool is_first(const SimulatedDesign& simulated, const std::vector<SimulatedDesig
 /// gamma h^2.
 tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options& options,
                                  material::ParameterSet parameters) {
-  parameters.toughness.gamma_per_s *= options.refine * options.refine;
+  parameters.toughness.gamma_per_s *= options.choice.refine * options.choice.refine;
   return {.design = simulated.design,
           .parameters = std::move(parameters),
           .conditions = {},
           .fidelity = fidelity_from_option(options.fidelity),
-          .strength_cv = options.strength_cv};
+          .strength_cv = options.choice.strength_cv};
 }
 
 void pull_specimen(SimulatedDesign& simulated, const tester::Simulation& simulation, std::size_t specimen,
                    const Options& options) {
   const double begun_s = processor_time_s();
   simulated.pulled[specimen] =
-      tester::test_toughness(simulation, {.refinement = options.refine, .specimen = static_cast<int>(specimen)});
+      tester::test_toughness(simulation, {.refinement = options.choice.refine, .specimen = static_cast<int>(specimen)});
   simulated.kernel_s[specimen] = processor_time_s() - begun_s;
 }
 
@@ -128,7 +98,7 @@ void sum_up(SimulatedDesign& simulated, const tester::Simulation& simulation, co
     if (each) broken.push_back(*each);
   if (broken.empty() || broken.size() < simulated.pulled.size()) return;
   simulated.toughness = tester::expected_toughness_of(std::move(broken));
-  if (options.refine > 1) return;
+  if (options.choice.refine > 1) return;
   simulated.crack = crack::record_of(simulation, simulated.pulled.front()->breaks);
   simulated.mechanisms = crack::mechanisms_of(simulation, *simulated.crack);
 }
@@ -145,10 +115,10 @@ std::vector<SpecimenTest> wanted_tests(std::vector<SimulatedDesign>& designs, co
   std::vector<SpecimenTest> tests;
   if (options.test != "modulus") {
     for (SimulatedDesign& simulated : designs) {
-      const auto count = static_cast<std::size_t>(options.specimens);
+      const auto count = static_cast<std::size_t>(options.choice.count);
       simulated.pulled.assign(count, fail("not tested"));
       simulated.kernel_s.assign(count, 0.0);
-      for (int i = 0; i < options.specimens; ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
+      for (int i = 0; i < options.choice.count; ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
     }
   }
   if (options.test != "toughness")
@@ -164,7 +134,7 @@ void run_tests(std::vector<SimulatedDesign>& designs, const Options& options,
     const SpecimenTest& each = tests[static_cast<std::size_t>(i)];
     const tester::Simulation simulation = simulation_of(*each.simulated, options, parameters);
     if (each.test == tester::TestKind::modulus)
-      each.simulated->modulus = tester::test_modulus(simulation, {.refinement = options.refine});
+      each.simulated->modulus = tester::test_modulus(simulation, {.refinement = options.choice.refine});
     else
       pull_specimen(*each.simulated, simulation, static_cast<std::size_t>(each.specimen), options);
     progress.advance();
@@ -178,150 +148,13 @@ void run_tests(std::vector<SimulatedDesign>& designs, const Options& options,
   });
 }
 
-nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mechanisms& mechanisms) {
-  nlohmann::ordered_json entry = {{"columns", crack.columns},
-                                  {"rows", crack.rows},
-                                  {"broken", crack.order.size()},
-                                  {"branches", crack.branches},
-                                  {"separate_cracks", crack.separate_cracks}};
-  entry["path_ratio"] = nullptr;
-  if (crack.path) {
-    entry["path_ratio"] = crack.path->ratio();
-    entry["path_length_m"] = crack.path->length_m;
-    entry["straight_length_m"] = crack.path->straight_length_m;
-    entry["bridged_share"] = crack.path->bridged_share;
-    entry["soft_share"] = crack.path->material[0];
-    entry["rigid_share"] = crack.path->material[1];
-    entry["interface_share"] = crack.path->material[2];
-    entry["crosses"] = crack.path->crosses;
-    entry["path"] = crack.path->elements;
-  }
-  const auto names = crack::mechanism_names();
-  const auto values = crack::values_of(mechanisms);
-  for (std::size_t k = 0; k < names.size(); ++k) entry["mechanisms"][std::string(names[k].name)] = values[k];
-  entry["order"] = nlohmann::ordered_json::array();
-  for (const tester::Break& broken : crack.order) entry["order"].push_back(broken.element);
-  return entry;
-}
-
-/// A mean over specimens of a number that each has.
-double mean_of(const tester::ExpectedToughness& toughness, double tester::ToughnessResult::*number) {
-  double sum = 0.0;
-  for (const tester::ToughnessResult& specimen : toughness.specimens) sum += specimen.*number;
-  return sum / static_cast<double>(toughness.specimens.size());
-}
-
-/// Time steps of all specimens.
-std::int64_t steps_of(const tester::ExpectedToughness& toughness) {
-  std::int64_t steps = 0;
-  for (const tester::ToughnessResult& specimen : toughness.specimens) steps += specimen.steps;
-  return steps;
-}
-
-/// Separation, unless a specimen's test ended otherwise: the first such reason.
-tester::EndReason end_of(const tester::ExpectedToughness& toughness) {
-  for (const tester::ToughnessResult& specimen : toughness.specimens)
-    if (specimen.end != tester::EndReason::stress_drop) return specimen.end;
-  return tester::EndReason::stress_drop;
-}
-
-/// The fields of a fracture test.
-void add_toughness(nlohmann::ordered_json& entry, const SimulatedDesign& simulated) {
-  const tester::ExpectedToughness& toughness = *simulated.toughness;
-  entry["toughness_pa"] = toughness.toughness_pa;
-  entry["peak_stress_pa"] = mean_of(toughness, &tester::ToughnessResult::peak_stress_pa);
-  entry["failure_strain"] = mean_of(toughness, &tester::ToughnessResult::failure_strain);
-  entry["end"] = tester::to_string(end_of(toughness));
-  entry["steps"] = steps_of(toughness);
-  double kernel_s = 0.0;
-  for (const double each_s : simulated.kernel_s) kernel_s += each_s;
-  entry["element_steps_per_s"] = static_cast<double>(steps_of(toughness)) *
-                                 static_cast<double>(toughness.specimens.front().element_count) / kernel_s;
-}
-
-/// The fields of a mean over specimens.
-void add_specimens(nlohmann::ordered_json& entry, const tester::ExpectedToughness& toughness, double strength_cv) {
-  entry["toughness_se_pa"] = or_null(toughness.toughness_se_pa);
-  entry["toughness_sd_pa"] = or_null(toughness.toughness_sd_pa);
-  entry["specimens"] = toughness.specimens.size();
-  entry["strength_cv"] = strength_cv;
-  entry["by_specimen"] = nlohmann::ordered_json::array();
-  for (const tester::ToughnessResult& specimen : toughness.specimens)
-    entry["by_specimen"].push_back({{"toughness_pa", specimen.toughness_pa},
-                                    {"peak_stress_pa", specimen.peak_stress_pa},
-                                    {"failure_strain", specimen.failure_strain},
-                                    {"end", tester::to_string(specimen.end)},
-                                    {"steps", specimen.steps}});
-}
-
-nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const Options& options) {
-  nlohmann::ordered_json entry = {{"pattern", simulated.argument}, {"key", simulated.design.name()}};
-  if (const std::string failure = simulated.failure(); !failure.empty()) {
-    entry["error"] = failure;
-    return entry;
-  }
-  for (const char* field :
-       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "end", "steps", "element_steps_per_s"}) {
-    entry[field] = nullptr;
-  }
-  if (simulated.modulus) entry["modulus_pa"] = (*simulated.modulus)->modulus_pa;
-  if (simulated.toughness) add_toughness(entry, simulated);
-  if (simulated.toughness && options.tells_mean()) add_specimens(entry, *simulated.toughness, options.strength_cv);
-  entry["crack"] = simulated.crack ? to_json(*simulated.crack, simulated.mechanisms) : nlohmann::ordered_json(nullptr);
-  return entry;
-}
-
-std::string_view in_words(tester::EndReason reason) {
-  switch (reason) {
-    case tester::EndReason::stress_drop:
-      return "the specimen separated";
-    case tester::EndReason::strain_limit:
-      return "unbroken at the largest strain";
-    case tester::EndReason::no_failure:
-      return "the soft material did not break";
-    case tester::EndReason::step_limit:
-      return "unbroken at the last step";
-  }
-  return "";
-}
-
-/// Behind the numbers: how the test ended, or how far a mean over specimens can be trusted.
-std::string remark_on(const tester::ExpectedToughness& toughness, const Options& options) {
-  if (!options.tells_mean()) return fmt::format("{} after {} steps", in_words(end_of(toughness)), steps_of(toughness));
-  if (!toughness.toughness_se_pa) return fmt::format("{}, one specimen", in_words(end_of(toughness)));
-  return fmt::format("T +- {:.2g} MPa (standard error), scatter {:.0f} %, {} specimens",
-                     1e-6 * *toughness.toughness_se_pa, 100.0 * *toughness.toughness_sd_pa / toughness.toughness_pa,
-                     toughness.specimens.size());
-}
-
-void print_table(const std::vector<SimulatedDesign>& designs, const Options& options) {
-  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>14}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa",
-             "failure strain", options.tells_mean() ? "mean over specimens" : "how the test ended");
-  for (const SimulatedDesign& simulated : designs) {
-    const std::string name =
-        simulated.argument.size() <= 24 ? simulated.argument : simulated.design.name().substr(0, 24);
-    if (const std::string failure = simulated.failure(); !failure.empty()) {
-      fmt::print("{:<24} {}\n", name, failure);
-      continue;
-    }
-    fmt::print("{:<24} {:>10}", name, simulated.modulus ? shown(1e-9 * (*simulated.modulus)->modulus_pa) : "");
-    if (simulated.toughness) {
-      const tester::ExpectedToughness& toughness = *simulated.toughness;
-      fmt::print(" {:>10} {:>10.3f} {:>14.4f}  {}", shown(1e-6 * toughness.toughness_pa),
-                 1e-6 * mean_of(toughness, &tester::ToughnessResult::peak_stress_pa),
-                 mean_of(toughness, &tester::ToughnessResult::failure_strain), remark_on(toughness, options));
-    }
-    fmt::print("\n");
-  }
-}
-
 /// One curve a specimen: KEY.csv, of several KEY-0.csv, KEY-1.csv, ...
 void write_curves(const std::vector<SimulatedDesign>& designs, const Options& options) {
   if (options.curves.empty()) return;
   for (const SimulatedDesign& simulated : designs)
     for (std::size_t i = 0; i < simulated.pulled.size(); ++i) {
       if (!simulated.pulled[i]) continue;
-      const std::string number = options.specimens > 1 ? fmt::format("-{}", i) : "";
+      const std::string number = options.choice.count > 1 ? fmt::format("-{}", i) : "";
       write_file_atomically(
           std::filesystem::path(options.curves) / (file_stem(simulated.design.name()) + number + ".csv"),
           measurement::to_csv(simulated.pulled[i]->curve));
@@ -330,16 +163,16 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
 
 /// Before anything is computed: the specimens that were asked for exist.
 void check_specimen_options(const Options& options, const material::ParameterSet& parameters) {
-  if (!tester::is_strength_cv(options.strength_cv))
-    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", options.strength_cv,
+  if (!tester::is_strength_cv(options.choice.strength_cv))
+    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", options.choice.strength_cv,
                              tester::kSmallestStrengthCv, tester::kLargestStrengthCv);
-  if (options.refine > 1 && options.wants_films())
+  if (options.choice.refine > 1 && options.wants_films())
     throw InputError("--frames and --film show unrefined elements: leave out --refine");
   const bool differ =
-      options.strength_cv > 0.0 || material::extension_value(parameters.extensions, "strength_scatter") > 0.0;
-  if (options.specimens > 1 && !differ)
-    warn(fmt::format("--specimens {}: without --strength-cv they are all alike", options.specimens));
-  if (options.specimens > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
+      options.choice.strength_cv > 0.0 || material::extension_value(parameters.extensions, "strength_scatter") > 0.0;
+  if (options.choice.count > 1 && !differ)
+    warn(fmt::format("--specimens {}: without --strength-cv they are all alike", options.choice.count));
+  if (options.choice.count > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
 }
 
 /// Before anything is computed: a GIF shows one specimen, and the outputs can be written.
@@ -366,9 +199,9 @@ int simulate(const Options& options) {
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const SimulatedDesign& simulated : designs) {
     any_succeeded = any_succeeded || simulated.failure().empty();
-    document.push_back(to_json(simulated, options));
+    document.push_back(to_json(simulated, options.choice));
   }
-  options.json ? print_json(document) : print_table(designs, options);
+  options.json ? print_json(document) : print_table(designs, options.choice);
   return any_succeeded ? 0 : 1;
 }
 
@@ -384,14 +217,14 @@ void add_simulate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
   add_fidelity(command, options->fidelity)->capture_default_str();
-  command.add_option("--specimens", options->specimens, "T is the mean over so many specimens of each pattern")
+  command.add_option("--specimens", options->choice.count, "T is the mean over so many specimens of each pattern")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
-      .add_option("--strength-cv", options->strength_cv,
+      .add_option("--strength-cv", options->choice.strength_cv,
                   "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4")
       ->capture_default_str();
-  command.add_option("--refine", options->refine, "Elements of 1/K, with the same specimens")
+  command.add_option("--refine", options->choice.refine, "Elements of 1/K, with the same specimens")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
   command.add_option("--curves", options->curves, "Folder for the stress-strain curves, one KEY.csv a specimen");
