@@ -96,21 +96,26 @@ std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t
                      refinement);
 }
 
+study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
+                                   const tester::Discretisation& discretisation, double strength_cv) {
+  tester::Simulation simulation{plan.layouts[layout], plan.sets[set], {}, plan.fidelity, strength_cv};
+  simulation.parameters.toughness.gamma_per_s *= discretisation.refinement * discretisation.refinement;
+  return {key, [=]() -> std::vector<double> {
+            const auto result = tester::test_toughness(simulation, discretisation);
+            if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};
+            fmt::print(stderr, "{}: {}\n", key, result.error().message);
+            return {0.0, 0.0, 0.0};
+          }};
+}
+
 std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan) {
   std::vector<study::Wanted> wanted;
   for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
       for (const int refinement : {1, 2}) {
         const std::size_t set = (i + pass) % plan.sets.size();
-        tester::Simulation simulation{plan.layouts[i], plan.sets[set], {}, plan.fidelity};
-        simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
         const std::string key = toughness_key(plan, i, set, refinement);
-        wanted.push_back({key, [=]() -> std::vector<double> {
-                            const auto result = tester::test_toughness(simulation, {.refinement = refinement});
-                            if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};
-                            fmt::print(stderr, "{}: {}\n", key, result.error().message);
-                            return {0.0, 0.0, 0.0};
-                          }});
+        wanted.push_back(wanted_fracture_test(key, plan, i, set, {.refinement = refinement}));
       }
   return wanted;
 }

@@ -8,7 +8,7 @@
 #include "pattern/layout.hpp"
 #include "study/study_command.hpp"
 #include "study/study_table.hpp"
-#include "tester/names.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::discretisation_floor {
 
@@ -41,10 +41,15 @@ double modulus_pa(const FloorPlan& plan, const pattern::Pattern& layout, const m
                   int refinement);
 
 inline const std::vector<std::string> kToughnessColumns = {"toughness_pa", "peak_stress_pa", "failure_strain"};
+/// The key of a fracture test of a layout with a set of the plan.
 std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement);
 
-/// Fracture tests at h and h/2, thresholds times 2 and damping times 4 (the filter's viscosity is gamma h^2): first
-/// every layout with one parameter set, in turn, then with the next one. A failed test gives zeros.
+/// One fracture test on elements of size h / refinement, damping times refinement^2 (the filter's viscosity is gamma
+/// h^2). A failed test gives zeros.
+study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
+                                   const tester::Discretisation& discretisation, double strength_cv = 0.0);
+
+/// Fracture tests at h and h/2: first every layout with one parameter set, in turn, then with the next one.
 std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan);
 
 }  // namespace nacre::discretisation_floor

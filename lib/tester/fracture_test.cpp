@@ -10,6 +10,7 @@
 #include "tester/film_strains.hpp"
 #include "tester/fracture_watch.hpp"
 #include "tester/notch.hpp"
+#include "tester/strength_field.hpp"
 #include "tester/strength_scatter.hpp"
 #include "thesis/constants.hpp"
 
@@ -97,6 +98,7 @@ FractureTest fracture_test(const Simulation& simulation, const Discretisation& d
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
                        units.x, units.y, discretisation.refinement);
+  draw_strengths(test.grid, discretisation.refinement, simulation, discretisation.specimen);
   const material::Extensions& extensions = simulation.parameters.extensions;
   scatter_strength(test.grid, discretisation.refinement, material::extension_value(extensions, "strength_scatter"),
                    specimen_name(simulation, discretisation.specimen));

@@ -57,11 +57,13 @@ std::string simulation_key(const Simulation& simulation, TestKind kind) {
   // Cached results of a turned coupon may be those of its layout turned against the pull, as in earlier versions.
   const bool is_turned_coupon = simulation.conditions.orientation_deg == 90.0 && simulation.design.layout() &&
                                 !simulation.design.layout()->has_eightfold_symmetry();
+  const bool varies = kind == TestKind::toughness && simulation.strength_cv != 0.0;
   const std::string inputs =
-      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}", kKernelVersion,
-                  to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
+      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}{}",
+                  kKernelVersion, to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
                   exact(simulation.conditions.orientation_deg), is_turned_coupon ? " with its layout" : "",
-                  parameter_text(simulation.parameters, kind), model_text(simulation, kind));
+                  parameter_text(simulation.parameters, kind), model_text(simulation, kind),
+                  varies ? fmt::format("strength_cv {}\n", exact(simulation.strength_cv)) : "");
   return content_hash(inputs);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/hash.hpp"
 #include "base/random.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::tester {
 
@@ -22,16 +23,7 @@ void scatter_strength(fem::Grid& grid, int refinement, double variation, std::st
   if (variation == 0.0) return;
   const double shape = weibull_shape(variation), scale = 1.0 / std::tgamma(1.0 + 1.0 / shape);
   RandomStream random(content_hash64(specimen), "strength_scatter");
-  const int columns = grid.columns / refinement, rows = grid.rows / refinement;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const double factor = scale * std::pow(-std::log1p(-random.uniform()), 1.0 / shape);
-      for (int part = 0; part < refinement * refinement; ++part) {
-        const int fine_row = row * refinement + part / refinement,
-                  fine_column = column * refinement + part % refinement;
-        grid.threshold_j_per_m3[grid.index(fine_row, fine_column)] *= factor;
-      }
-    }
+  multiply_strengths(grid, refinement, [&] { return scale * std::pow(-std::log1p(-random.uniform()), 1.0 / shape); });
 }
 
 }  // namespace nacre::tester

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tester/strength_field.hpp"
+
 namespace nacre::tester {
 namespace {
 
@@ -17,6 +19,9 @@ std::string simulation_fault(const Simulation& simulation, TestKind kind) {
     return fmt::format("strain rate {} /s, expected a number above 0", conditions.strain_rate_per_s);
   if (!positive(conditions.thickness_mm))
     return fmt::format("thickness {} mm, expected a number above 0", conditions.thickness_mm);
+  if (kind == TestKind::toughness && !is_strength_cv(simulation.strength_cv))
+    return fmt::format("strength_cv {}, expected 0 or {} to {}", simulation.strength_cv, kSmallestStrengthCv,
+                       kLargestStrengthCv);
   // Only the parameters of the test that is run must be usable: a file may hold one table alone.
   material::ParameterSet needed = material::default_parameters();
   needed.extensions = simulation.parameters.extensions;

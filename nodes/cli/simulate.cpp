@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,9 @@
 #include "base/parallel.hpp"
 #include "base/processor_time.hpp"
 #include "command.hpp"
-#include "crack/crack_record.hpp"
-#include "crack/mechanisms.hpp"
 #include "film/film_file.hpp"
 #include "film_files.hpp"
+#include "material/extensions.hpp"
 #include "material/parameters.hpp"
 #include "measurement/set_files.hpp"
 #include "output.hpp"
@@ -21,7 +19,8 @@
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "tester/modulus.hpp"
+#include "simulated_design.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -36,186 +35,144 @@ struct Options {
   std::string film;
   int frame_count = film::kFrames;
   int film_width = 960;
+  SpecimenChoice choice;
   bool json = false;
 
   bool wants_films() const { return !frames.empty() || !film.empty(); }
 };
 
-/// A design and the results of its tests.
-struct SimulatedSpecimen {
-  std::string argument;
-  pattern::Design design;
-  std::optional<Result<tester::ModulusResult>> modulus;
-  std::optional<Result<tester::ToughnessResult>> toughness;
-  std::optional<crack::CrackRecord> crack;
-  crack::Mechanisms mechanisms;
-  double kernel_s = 0.0;  ///< processor time of the toughness test
-
-  /// Why there is no number; empty when every test that was run succeeded.
-  std::string failure() const {
-    if (modulus && !*modulus) return "modulus: " + modulus->error().message;
-    if (toughness && !*toughness) return "toughness: " + toughness->error().message;
-    return "";
-  }
-};
-
-std::vector<SimulatedSpecimen> read_specimens(const std::vector<std::string>& arguments) {
-  std::vector<SimulatedSpecimen> specimens;
+std::vector<SimulatedDesign> read_designs(const std::vector<std::string>& arguments) {
+  std::vector<SimulatedDesign> designs;
   for (const std::string& argument : arguments) {
-    SimulatedSpecimen& specimen = specimens.emplace_back();
-    specimen.argument = argument;
-    specimen.design = pattern::design_from_argument(argument);
-    const pattern::Layout* layout = specimen.design.layout();
+    SimulatedDesign& simulated = designs.emplace_back();
+    simulated.argument = argument;
+    simulated.design = pattern::design_from_argument(argument);
+    const pattern::Layout* layout = simulated.design.layout();
     if (layout == nullptr) continue;
     const auto symmetric = pattern::Pattern::from_layout(*layout);
     const auto violation =
         symmetric ? pattern::violation(*symmetric) : "it lacks the eightfold symmetry of nacre's proposals";
     if (violation) warn(fmt::format("{}: {}; it is simulated all the same", argument, *violation));
   }
-  return specimens;
+  return designs;
 }
 
-/// Pulls the specimen once more for its film, and writes what was asked for.
-void film_specimen(const SimulatedSpecimen& specimen, const tester::Simulation& simulation, const Options& options) {
-  const Result<film::Film> film = film::record_film(simulation, **specimen.toughness, options.frame_count);
-  const std::string stem = file_stem(specimen.design.name());
-  if (!film) throw InputError::format("{}: no film: {}", specimen.argument, film.error().message);
+/// Pulls specimen 0 once more for its film, and writes what was asked for.
+void film_specimen(const SimulatedDesign& simulated, const tester::Simulation& simulation, const Options& options) {
+  const Result<film::Film> film = film::record_film(simulation, *simulated.pulled.front(), options.frame_count);
+  const std::string stem = file_stem(simulated.design.name());
+  if (!film) throw InputError::format("{}: no film: {}", simulated.argument, film.error().message);
   if (!options.frames.empty()) film::write_film(std::filesystem::path(options.frames) / (stem + ".film"), *film);
   if (!options.film.empty()) draw_film(*film, options.film, stem, options.film_width);
 }
 
-/// Whether no specimen before it has the same design: files are named after designs, and written once.
-bool is_first_of_its_design(const SimulatedSpecimen& specimen, const std::vector<SimulatedSpecimen>& specimens) {
-  return &*std::ranges::find(specimens, specimen.design, &SimulatedSpecimen::design) == &specimen;
+/// Whether none before it is the same design: files are named after designs, and written once.
+bool is_first(const SimulatedDesign& simulated, const std::vector<SimulatedDesign>& designs) {
+  return &*std::ranges::find(designs, simulated.design, &SimulatedDesign::design) == &simulated;
 }
 
-void run_tests(std::vector<SimulatedSpecimen>& specimens, const Options& options,
-               const material::ParameterSet& parameters) {
-  struct SpecimenTest {
-    SimulatedSpecimen* specimen;
-    tester::TestKind test;
-  };
-  std::vector<SpecimenTest> tasks;  // the long tests first
-  for (const auto test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
-    if (options.test != "both" && options.test != tester::to_string(test)) continue;
-    for (SimulatedSpecimen& specimen : specimens) tasks.push_back({&specimen, test});
-  }
-  const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
-  Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
-  parallel_for(static_cast<int>(tasks.size()), [&](int i) {
-    const SpecimenTest& task = tasks[i];
-    SimulatedSpecimen& specimen = *task.specimen;
-    const tester::Simulation simulation{specimen.design, parameters, {}, fidelity};
-    if (task.test == tester::TestKind::modulus) {
-      specimen.modulus = tester::test_modulus(simulation);
-    } else {
-      const double begun_s = processor_time_s();
-      specimen.toughness = tester::test_toughness(simulation);
-      specimen.kernel_s = processor_time_s() - begun_s;
-      if (*specimen.toughness) {
-        specimen.crack = crack::record_of(simulation, (*specimen.toughness)->breaks);
-        specimen.mechanisms = crack::mechanisms_of(simulation, *specimen.crack);
-        if (options.wants_films() && is_first_of_its_design(specimen, specimens))
-          film_specimen(specimen, simulation, options);
-      }
+/// The simulation of a design. On elements of h / K the damping is K^2 times as large: the filter's viscosity is
+/// gamma h^2.
+tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options& options,
+                                 material::ParameterSet parameters) {
+  parameters.toughness.gamma_per_s *= options.choice.refine * options.choice.refine;
+  return {.design = simulated.design,
+          .parameters = std::move(parameters),
+          .conditions = {},
+          .fidelity = fidelity_from_option(options.fidelity),
+          .strength_cv = options.choice.strength_cv};
+}
+
+void pull_specimen(SimulatedDesign& simulated, const tester::Simulation& simulation, std::size_t specimen,
+                   const Options& options) {
+  const double begun_s = processor_time_s();
+  simulated.pulled[specimen] =
+      tester::test_toughness(simulation, {.refinement = options.choice.refine, .specimen = static_cast<int>(specimen)});
+  simulated.kernel_s[specimen] = processor_time_s() - begun_s;
+}
+
+/// What the broken specimens tell together, and the crack of the first; a refined crack counts other elements.
+void sum_up(SimulatedDesign& simulated, const tester::Simulation& simulation, const Options& options) {
+  std::vector<tester::ToughnessResult> broken;
+  for (const Result<tester::ToughnessResult>& each : simulated.pulled)
+    if (each) broken.push_back(*each);
+  if (broken.empty() || broken.size() < simulated.pulled.size()) return;
+  simulated.toughness = tester::expected_toughness_of(std::move(broken));
+  if (options.choice.refine > 1) return;
+  simulated.crack = crack::record_of(simulation, simulated.pulled.front()->breaks);
+  simulated.mechanisms = crack::mechanisms_of(simulation, *simulated.crack);
+}
+
+/// A test of a design; the number of its specimen counts in a toughness test alone.
+struct SpecimenTest {
+  SimulatedDesign* simulated;
+  tester::TestKind test;
+  int specimen = 0;
+};
+
+/// The long tests first.
+std::vector<SpecimenTest> wanted_tests(std::vector<SimulatedDesign>& designs, const Options& options) {
+  std::vector<SpecimenTest> tests;
+  if (options.test != "modulus") {
+    for (SimulatedDesign& simulated : designs) {
+      const auto count = static_cast<std::size_t>(options.choice.count);
+      simulated.pulled.assign(count, fail("not tested"));
+      simulated.kernel_s.assign(count, 0.0);
+      for (int i = 0; i < options.choice.count; ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
     }
+  }
+  if (options.test != "toughness")
+    for (SimulatedDesign& simulated : designs) tests.push_back({&simulated, tester::TestKind::modulus});
+  return tests;
+}
+
+void run_tests(std::vector<SimulatedDesign>& designs, const Options& options,
+               const material::ParameterSet& parameters) {
+  const std::vector<SpecimenTest> tests = wanted_tests(designs, options);
+  Progress progress("simulate: tests", static_cast<std::int64_t>(tests.size()));
+  parallel_for(static_cast<int>(tests.size()), [&](int i) {
+    const SpecimenTest& each = tests[static_cast<std::size_t>(i)];
+    const tester::Simulation simulation = simulation_of(*each.simulated, options, parameters);
+    if (each.test == tester::TestKind::modulus)
+      each.simulated->modulus = tester::test_modulus(simulation, {.refinement = options.choice.refine});
+    else
+      pull_specimen(*each.simulated, simulation, static_cast<std::size_t>(each.specimen), options);
     progress.advance();
+  });
+  parallel_for(static_cast<int>(designs.size()), [&](int i) {
+    SimulatedDesign& simulated = designs[static_cast<std::size_t>(i)];
+    const tester::Simulation simulation = simulation_of(simulated, options, parameters);
+    sum_up(simulated, simulation, options);
+    if (simulated.toughness && options.wants_films() && is_first(simulated, designs))
+      film_specimen(simulated, simulation, options);
   });
 }
 
-nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mechanisms& mechanisms) {
-  nlohmann::ordered_json entry = {{"columns", crack.columns},
-                                  {"rows", crack.rows},
-                                  {"broken", crack.order.size()},
-                                  {"branches", crack.branches},
-                                  {"separate_cracks", crack.separate_cracks}};
-  entry["path_ratio"] = nullptr;
-  if (crack.path) {
-    entry["path_ratio"] = crack.path->ratio();
-    entry["path_length_m"] = crack.path->length_m;
-    entry["straight_length_m"] = crack.path->straight_length_m;
-    entry["bridged_share"] = crack.path->bridged_share;
-    entry["soft_share"] = crack.path->material[0];
-    entry["rigid_share"] = crack.path->material[1];
-    entry["interface_share"] = crack.path->material[2];
-    entry["crosses"] = crack.path->crosses;
-    entry["path"] = crack.path->elements;
-  }
-  const auto names = crack::mechanism_names();
-  const auto values = crack::values_of(mechanisms);
-  for (std::size_t k = 0; k < names.size(); ++k) entry["mechanisms"][std::string(names[k].name)] = values[k];
-  entry["order"] = nlohmann::ordered_json::array();
-  for (const tester::Break& broken : crack.order) entry["order"].push_back(broken.element);
-  return entry;
-}
-
-nlohmann::ordered_json to_json(const SimulatedSpecimen& specimen) {
-  nlohmann::ordered_json entry = {{"pattern", specimen.argument}, {"key", specimen.design.name()}};
-  if (const std::string failure = specimen.failure(); !failure.empty()) {
-    entry["error"] = failure;
-    return entry;
-  }
-  for (const char* field :
-       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "end", "steps", "element_steps_per_s"}) {
-    entry[field] = nullptr;
-  }
-  if (specimen.modulus) entry["modulus_pa"] = (*specimen.modulus)->modulus_pa;
-  if (specimen.toughness) {
-    const tester::ToughnessResult& result = **specimen.toughness;
-    entry["toughness_pa"] = result.toughness_pa;
-    entry["peak_stress_pa"] = result.peak_stress_pa;
-    entry["failure_strain"] = result.failure_strain;
-    entry["end"] = tester::to_string(result.end);
-    entry["steps"] = result.steps;
-    entry["element_steps_per_s"] =
-        static_cast<double>(result.steps) * static_cast<double>(result.element_count) / specimen.kernel_s;
-  }
-  entry["crack"] = specimen.crack ? to_json(*specimen.crack, specimen.mechanisms) : nlohmann::ordered_json(nullptr);
-  return entry;
-}
-
-std::string_view in_words(tester::EndReason reason) {
-  switch (reason) {
-    case tester::EndReason::stress_drop:
-      return "the specimen separated";
-    case tester::EndReason::strain_limit:
-      return "unbroken at the largest strain";
-    case tester::EndReason::no_failure:
-      return "the soft material did not break";
-    case tester::EndReason::step_limit:
-      return "unbroken at the last step";
-  }
-  return "";
-}
-
-void print_table(const std::vector<SimulatedSpecimen>& specimens) {
-  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>14}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa",
-             "failure strain", "how the test ended");
-  for (const SimulatedSpecimen& specimen : specimens) {
-    const std::string name = specimen.argument.size() <= 24 ? specimen.argument : specimen.design.name().substr(0, 24);
-    if (const std::string failure = specimen.failure(); !failure.empty()) {
-      fmt::print("{:<24} {}\n", name, failure);
-      continue;
+/// One curve a specimen: KEY.csv, of several KEY-0.csv, KEY-1.csv, ...
+void write_curves(const std::vector<SimulatedDesign>& designs, const Options& options) {
+  if (options.curves.empty()) return;
+  for (const SimulatedDesign& simulated : designs)
+    for (std::size_t i = 0; i < simulated.pulled.size(); ++i) {
+      if (!simulated.pulled[i]) continue;
+      const std::string number = options.choice.count > 1 ? fmt::format("-{}", i) : "";
+      write_file_atomically(
+          std::filesystem::path(options.curves) / (file_stem(simulated.design.name()) + number + ".csv"),
+          measurement::to_csv(simulated.pulled[i]->curve));
     }
-    fmt::print("{:<24} {:>10}", name, specimen.modulus ? shown(1e-9 * (*specimen.modulus)->modulus_pa) : "");
-    if (specimen.toughness) {
-      const tester::ToughnessResult& result = **specimen.toughness;
-      fmt::print(" {:>10} {:>10.3f} {:>14.4f}  {} after {} steps", shown(1e-6 * result.toughness_pa),
-                 1e-6 * result.peak_stress_pa, result.failure_strain, in_words(result.end), result.steps);
-    }
-    fmt::print("\n");
-  }
 }
 
-void write_files(const std::vector<SimulatedSpecimen>& specimens, const Options& options) {
-  for (const SimulatedSpecimen& specimen : specimens) {
-    if (!specimen.toughness || !*specimen.toughness) continue;
-    const std::string stem = file_stem(specimen.design.name());
-    if (!options.curves.empty()) {
-      write_file_atomically(std::filesystem::path(options.curves) / (stem + ".csv"),
-                            measurement::to_csv((*specimen.toughness)->curve));
-    }
-  }
+/// Before anything is computed: the specimens that were asked for exist.
+void check_specimen_options(const Options& options, const material::ParameterSet& parameters) {
+  if (!tester::is_strength_cv(options.choice.strength_cv))
+    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", options.choice.strength_cv,
+                             tester::kSmallestStrengthCv, tester::kLargestStrengthCv);
+  if (options.choice.refine > 1 && options.wants_films())
+    throw InputError("--frames and --film show unrefined elements: leave out --refine");
+  const bool differ =
+      options.choice.strength_cv > 0.0 || material::extension_value(parameters.extensions, "strength_scatter") > 0.0;
+  if (options.choice.count > 1 && !differ)
+    warn(fmt::format("--specimens {}: without --strength-cv they are all alike", options.choice.count));
+  if (options.choice.count > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
 }
 
 /// Before anything is computed: a GIF shows one specimen, and the outputs can be written.
@@ -232,18 +189,19 @@ void check_output_options(const Options& options) {
 }
 
 int simulate(const Options& options) {
-  std::vector<SimulatedSpecimen> specimens = read_specimens(options.patterns);
+  std::vector<SimulatedDesign> designs = read_designs(options.patterns);
   const material::ParameterSet parameters = parameters_from_option(options.params, material::default_parameters());
+  check_specimen_options(options, parameters);
   check_output_options(options);
-  run_tests(specimens, options, parameters);
-  write_files(specimens, options);
+  run_tests(designs, options, parameters);
+  write_curves(designs, options);
   bool any_succeeded = false;
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
-  for (const SimulatedSpecimen& specimen : specimens) {
-    any_succeeded = any_succeeded || specimen.failure().empty();
-    document.push_back(to_json(specimen));
+  for (const SimulatedDesign& simulated : designs) {
+    any_succeeded = any_succeeded || simulated.failure().empty();
+    document.push_back(to_json(simulated, options.choice));
   }
-  options.json ? print_json(document) : print_table(specimens);
+  options.json ? print_json(document) : print_table(designs, options.choice);
   return any_succeeded ? 0 : 1;
 }
 
@@ -259,7 +217,17 @@ void add_simulate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
   add_fidelity(command, options->fidelity)->capture_default_str();
-  command.add_option("--curves", options->curves, "Folder for the stress-strain curves, one KEY.csv each");
+  command.add_option("--specimens", options->choice.count, "T is the mean over so many specimens of each pattern")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--strength-cv", options->choice.strength_cv,
+                  "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4")
+      ->capture_default_str();
+  command.add_option("--refine", options->choice.refine, "Elements of 1/K, with the same specimens")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  command.add_option("--curves", options->curves, "Folder for the stress-strain curves, one KEY.csv a specimen");
   command.add_option("--frames", options->frames,
                      "Folder for fracture films as data, one KEY.film each (docs/FORMATS.md)");
   command.add_option("--film", options->film, "GIF that shows one specimen break, or folder for pictures KEY-NNNN.png");

@@ -59,6 +59,7 @@ const std::map<std::string, std::uint64_t> kFirstDraws = {
     {"slope/", 13259846407278886486U},
     {"specimen/{}/{}", 10734041044105544372U},
     {"stratified random patterns", 12030668745400846242U},
+    {"strength of {}/{}/{}", 7855580923050014907U},
     {"strength_scatter", 1191495373525714289U},
     {"surrogate/kernel", 11879602038280261339U},
     {"sysid/batch", 18172197041893375533U},

@@ -1,6 +1,7 @@
 // The command line as people and scripts meet it: what it answers, and what it says to bad input.
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -60,6 +61,36 @@ TEST_F(CommandLine, SimulateAnswersInTheDocumentedForm) {
     EXPECT_GT(document[0][field].get<double>(), 0.0) << field;
   }
   EXPECT_LT(document[1]["modulus_pa"].get<double>(), document[0]["modulus_pa"].get<double>());
+}
+
+TEST_F(CommandLine, SimulateGivesTheMeanOverSpecimens) {
+  const std::vector<std::string> one = {"simulate", "577fffe9fffdef", "--test", "toughness", "--fidelity", "tiny"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), one.begin(), one.end());
+    return run_nacre(more);
+  };
+  const Outcome outcome =
+      with({"--specimens", "3", "--strength-cv", "0.1", "--refine", "2", "--curves", path("many"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto entry = nlohmann::json::parse(outcome.out)[0];
+  ASSERT_EQ(entry["by_specimen"].size(), 3U);
+  double sum_pa = 0.0, squares = 0.0;
+  for (const auto& each : entry["by_specimen"]) sum_pa += each["toughness_pa"].get<double>();
+  for (const auto& each : entry["by_specimen"])
+    squares += std::pow(each["toughness_pa"].get<double>() - sum_pa / 3.0, 2);
+  EXPECT_DOUBLE_EQ(entry["toughness_pa"], sum_pa / 3.0);
+  EXPECT_NEAR(entry["toughness_se_pa"].get<double>(), std::sqrt(squares / 6.0), 1e-6 * sum_pa);
+  EXPECT_GT(entry["toughness_se_pa"].get<double>(), 0.0);
+  EXPECT_EQ(entry["specimens"], 3);
+  EXPECT_TRUE(entry["crack"].is_null()) << "of refined elements";
+  for (const char* file : {"many/577fffe9fffdef-0.csv", "many/577fffe9fffdef-2.csv"})
+    EXPECT_TRUE(fs::exists(path(file))) << file;
+
+  EXPECT_FALSE(nlohmann::json::parse(with({"--json"}).out)[0].contains("toughness_se_pa"));
+  EXPECT_THAT(with({"--specimens", "2"}).err, HasSubstr("all alike"));
+  expect_refused(with({"--strength-cv", "0.5"}), {"--strength-cv", "0.02 to 0.4"});
+  expect_refused(with({"--specimens", "0"}), {"--specimens"});
+  expect_refused(with({"--refine", "2", "--film", path("fine.gif")}), {"--refine"});
 }
 
 TEST_F(CommandLine, SimulateLeavesFieldsOfATestNotRunNull) {

@@ -44,6 +44,19 @@ TEST(SimulationKey, ChangesWithDesignFidelityAndOrientation) {
   }
 }
 
+TEST(SimulationKey, OfTheToughnessChangesWithTheVariationOfStrength) {
+  const auto varied = [](Simulation& s) { s.strength_cv = 0.1; };
+  EXPECT_TRUE(distinguishes(TestKind::toughness, varied));
+  EXPECT_FALSE(distinguishes(TestKind::modulus, varied));
+  EXPECT_FALSE(distinguishes(TestKind::toughness, [](Simulation& s) { s.strength_cv = 0.0; }));
+}
+
+// The keys of caches that there are: without a variation of strength none has changed.
+TEST(SimulationKey, IsTheOneThatCachesHave) {
+  EXPECT_EQ(kKernelVersion, 8) << "another kernel: other keys";
+  EXPECT_EQ(simulation_key(question(), TestKind::toughness), "f3aee0f770090b67d89a31f6f3b68a74");
+}
+
 TEST(SimulationKey, OfTheModulusFeelsThetaAndNothingOfEta) {
   for (int i = 0; i < material::kModulusParameterCount; ++i) {
     const bool is_damping = material::modulus_parameter_names()[i] == "gamma_per_s";
