@@ -11,6 +11,7 @@
 #include "diagnosis/features.hpp"
 #include "floor_rows.hpp"
 #include "study/study_command.hpp"
+#include "tester/refinement.hpp"
 #include "tester/toughness.hpp"
 
 namespace {
@@ -39,8 +40,8 @@ std::vector<study::Wanted> wanted_curves(const FloorPlan& plan) {
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
       for (const int refinement : {1, 2}) {
         const std::size_t set = (i + pass) % plan.sets.size();
-        tester::Simulation simulation{plan.layouts[i], plan.sets[set], {}, plan.fidelity};
-        simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
+        const tester::Simulation simulation{
+            plan.layouts[i], tester::refined(plan.sets[set], refinement), {}, plan.fidelity};
         wanted.push_back({toughness_key(plan, i, set, refinement), [=]() -> std::vector<double> {
                             const auto result = tester::test_toughness(simulation, {.refinement = refinement});
                             const diagnosis::FeatureValues features =

@@ -11,6 +11,7 @@
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
 #include "tester/modulus.hpp"
+#include "tester/refinement.hpp"
 
 namespace nacre::discretisation_floor {
 namespace {
@@ -98,8 +99,8 @@ std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t
 
 study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
                                    const tester::Discretisation& discretisation, double strength_cv) {
-  tester::Simulation simulation{plan.layouts[layout], plan.sets[set], {}, plan.fidelity, strength_cv};
-  simulation.parameters.toughness.gamma_per_s *= discretisation.refinement * discretisation.refinement;
+  const tester::Simulation simulation{
+      plan.layouts[layout], tester::refined(plan.sets[set], discretisation.refinement), {}, plan.fidelity, strength_cv};
   return {key, [=]() -> std::vector<double> {
             const auto result = tester::test_toughness(simulation, discretisation);
             if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};

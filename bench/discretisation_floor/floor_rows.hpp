@@ -44,8 +44,7 @@ inline const std::vector<std::string> kToughnessColumns = {"toughness_pa", "peak
 /// The key of a fracture test of a layout with a set of the plan.
 std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement);
 
-/// One fracture test on elements of size h / refinement, damping times refinement^2 (the filter's viscosity is gamma
-/// h^2). A failed test gives zeros.
+/// One fracture test on elements of size h / refinement, with parameters `tester::refined`. A failed test gives zeros.
 study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
                                    const tester::Discretisation& discretisation, double strength_cv = 0.0);
 

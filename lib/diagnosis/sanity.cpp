@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "measurement/consistency.hpp"
 #include "tester/modulus.hpp"
+#include "tester/refinement.hpp"
 #include "tester/toughness.hpp"
 
 namespace nacre::diagnosis {
@@ -18,12 +19,11 @@ using tester::TestKind;
 struct DiscretisationVariant {
   const char* words;
   tester::Discretisation discretisation;
-  double gamma = 1.0;  ///< factor: the filter of Eq. 2.4 amounts to a viscosity gamma h^2
 };
 
 std::vector<DiscretisationVariant> variants() {
   DiscretisationVariant step{"half the time step", {}}, rate{"half the simulated rate", {}},
-      recording{"doubled recording", {}}, element{"half the element size", {}, 4.0};
+      recording{"doubled recording", {}}, element{"half the element size", {}};
   step.discretisation.time_step_scale = 0.5;
   rate.discretisation.rate_scale = 0.5;
   recording.discretisation.recording_scale = 2;
@@ -46,11 +46,11 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
   return {groups.front(), groups[groups.size() / 2], groups.back()};
 }
 
-FeatureValues features_with(const Observation& group, material::ParameterSet set, tester::Fidelity fidelity,
+FeatureValues features_with(const Observation& group, const material::ParameterSet& set, tester::Fidelity fidelity,
                             const DiscretisationVariant& variant) {
   FeatureValues values;
-  set.toughness.gamma_per_s *= variant.gamma;
-  const tester::Simulation simulation{group.design, set, group.conditions, fidelity};
+  const tester::Simulation simulation{group.design, tester::refined(set, variant.discretisation.refinement),
+                                      group.conditions, fidelity};
   if (group.test == TestKind::modulus) {
     if (const auto result = tester::test_modulus(simulation, variant.discretisation))
       value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
@@ -64,7 +64,7 @@ FeatureValues features_with(const Observation& group, material::ParameterSet set
 
 std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
                                               tester::Fidelity fidelity) {
-  std::vector<DiscretisationVariant> tried = {{"", {}, 1.0}};
+  std::vector<DiscretisationVariant> tried = {{"", {}}};
   for (const DiscretisationVariant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
   std::vector<SanityCheck> checks;

@@ -20,6 +20,7 @@
 #include "pattern/design.hpp"
 #include "progress.hpp"
 #include "simulated_design.hpp"
+#include "tester/refinement.hpp"
 #include "tester/strength_field.hpp"
 
 namespace nacre::cli {
@@ -71,13 +72,10 @@ bool is_first(const SimulatedDesign& simulated, const std::vector<SimulatedDesig
   return &*std::ranges::find(designs, simulated.design, &SimulatedDesign::design) == &simulated;
 }
 
-/// The simulation of a design. On elements of h / K the damping is K^2 times as large: the filter's viscosity is
-/// gamma h^2.
 tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options& options,
-                                 material::ParameterSet parameters) {
-  parameters.toughness.gamma_per_s *= options.choice.refine * options.choice.refine;
+                                 const material::ParameterSet& parameters) {
   return {.design = simulated.design,
-          .parameters = std::move(parameters),
+          .parameters = tester::refined(parameters, options.choice.refine),
           .conditions = {},
           .fidelity = fidelity_from_option(options.fidelity),
           .strength_cv = options.choice.strength_cv};
