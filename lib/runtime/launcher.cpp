@@ -83,21 +83,21 @@ bool is_started_here(const LaunchOptions& options, const std::string& node) {
   return options.only.empty() ? !names(options.elsewhere, node) : names(options.only, node);
 }
 
-/// Nodes that go by another machine must be nodes of the run, and the run must reach that machine.
+/// Nodes that are named must be nodes of the run; the run must reach another machine's, debugged ones start here.
 void expect_nodes(const LaunchOptions& options, const game::Scenario& scenario) {
   const std::vector<std::string> nodes = scenario.nodes();
-  for (const std::string& node : options.debug) {
-    if (names(nodes, node) && !is_started_here(options, node))
-      throw InputError::format("--debug {}: expected a node that is started here", node);
-  }
   for (const auto* named : {&options.elsewhere, &options.only, &options.debug}) {
     for (const std::string& node : *named) {
       if (names(nodes, node)) continue;
       throw InputError::format("{}: no node of this run: expected one of {}", node, fmt::join(nodes, ", "));
     }
-    if (named->empty() || named == &options.debug || scenario.hosts == "lan") continue;
+  }
+  if (scenario.hosts != "lan" && !(options.elsewhere.empty() && options.only.empty()))
     throw InputError::format(
         "the scenario says hosts = \"{}\": no message leaves this machine; expected hosts = \"lan\"", scenario.hosts);
+  for (const std::string& node : options.debug) {
+    if (!is_started_here(options, node))
+      throw InputError::format("--debug {}: expected a node that is started here", node);
   }
 }
 
