@@ -44,7 +44,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
               const std::function<void(CLI::App&)>& add_options) {
   turn_write_signals_into_errors();  // before any file is opened
   CLI::App app("nacre " + node);
-  app.set_version_flag("--version", version_in_words());
+  app.set_version_flag("--version", version_in_words);
   NodeOptions options;
   options.node = node;
   add_node_options(app, options);

@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "nacre finds stiff and tough two-material microstructures and closes the gap between simulation and laboratory.",
       "nacre"};
-  app.set_version_flag("--version", runtime::version_in_words());
+  app.set_version_flag("--version", runtime::version_in_words);
   app.require_subcommand(1);
   Action action;
   for (const auto add :
