@@ -33,9 +33,10 @@ fs::path shipped_folder() {
   return ".";
 }
 
+fs::path built_folder() { return installed_folder().value_or(program_folder().parent_path()); }
+
 std::string build_commit() try {
-  const fs::path file = installed_folder().value_or(program_folder().parent_path()) / "commit";
-  const std::string text = read_file(file);
+  const std::string text = read_file(built_folder() / "commit");
   return text.substr(0, text.find('\n'));
 } catch (const InputError&) {
   return "unknown";

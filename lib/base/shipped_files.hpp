@@ -14,6 +14,9 @@ std::optional<std::filesystem::path> installed_folder();
 /// working folder.
 std::filesystem::path shipped_folder();
 
+/// The folder that holds what a build makes beside programs, commit and web/: the installed one, else the build's.
+std::filesystem::path built_folder();
+
 /// The commit that the program was built from, "+changes" appended when the sources differed from it; "unknown" where
 /// they were no git repository. From the file that every build writes, so that no program depends on it.
 std::string build_commit();

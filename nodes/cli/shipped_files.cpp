@@ -8,7 +8,6 @@
 
 #include "base/result.hpp"
 #include "base/shipped_files.hpp"
-#include "runtime/process.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -40,9 +39,6 @@ fs::path scenario_file(const fs::path& typed) {
                            names.empty() ? "" : " or one of ", fmt::join(names, ", "));
 }
 
-fs::path page_folder() {
-  if (const auto installed = installed_folder()) return *installed / "web";
-  return runtime::this_program().parent_path().parent_path() / "web";
-}
+fs::path page_folder() { return built_folder() / "web"; }
 
 }  // namespace nacre::cli
