@@ -24,8 +24,7 @@ struct BrokenSpecimen {
   tester::Fidelity fidelity = tester::Fidelity::full;
 };
 
-/// One sentence, plain: what the crack does, and T and E as multiples of the
-/// reference's.
+/// One sentence, plain: what the crack does, and T and E as multiples of the reference's.
 std::string fracture_in_words(const BrokenSpecimen& specimen);
 
 /// A self-contained HTML page: the sentence, the film (`gif`: the bytes of the file), curves, E and T of both.

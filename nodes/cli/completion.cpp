@@ -59,9 +59,8 @@ std::string zsh_value(const CLI::Option& option) {
 /// A specification of _arguments as a line.
 std::string zsh_option(const CLI::Option& option) {
   const bool repeats = option.get_expected_max() > 1;
-  const std::string value =
-      takes_value(option) ? fmt::format(":{}:{}", zsh_text(option.get_type_name().substr(0, 4)), zsh_value(option))
-                          : "";
+  const std::string type = option.get_type_name(), kind = type.substr(0, type.find_first_of(": "));
+  const std::string value = takes_value(option) ? fmt::format(":{}:{}", zsh_text(kind), zsh_value(option)) : "";
   return fmt::format("        '{}{}{}[{}]{}' \\\n", repeats ? "*" : "", typed_name(option),
                      takes_value(option) ? "=" : "", zsh_text(option.get_description()), value);
 }
