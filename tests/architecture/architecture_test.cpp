@@ -157,5 +157,24 @@ TEST(Architecture, EveryModuleHasAReadme) {
   }
 }
 
+/// `name` -> the six digits behind it, at each match of `pattern` (name, digits).
+std::map<std::string, std::string> colours_in(const fs::path& file, const std::string& pattern) {
+  const std::string text = text_of(file);
+  const std::regex colour(pattern);
+  std::map<std::string, std::string> colours;
+  for (std::sregex_iterator match(text.begin(), text.end(), colour), end; match != end; ++match)
+    colours.emplace((*match)[1], (*match)[2]);
+  return colours;
+}
+
+TEST(Architecture, ThePageHasTheColoursOfThePhases) {
+  const auto printed = colours_in("lib/pattern/phase_colours.hpp", "k(Soft|Rigid|Interface)Rgb = 0x([0-9a-f]{6})");
+  const auto shown = colours_in("web/src/colour.ts", "\\b(soft|rigid|interface): \"#([0-9a-f]{6})\"");
+  ASSERT_EQ(printed.size(), 3u);
+  EXPECT_EQ(shown, (std::map<std::string, std::string>{{"soft", printed.at("Soft")},
+                                                       {"rigid", printed.at("Rigid")},
+                                                       {"interface", printed.at("Interface")}}));
+}
+
 }  // namespace
 }  // namespace nacre

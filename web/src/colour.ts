@@ -57,16 +57,19 @@ const glow = (share: number) => {
   return rgbOfLch(0.3 + 0.66 * t, 0.2 - 0.06 * t * t, -62 + 168 * t);
 };
 
-const MATERIALS: Three[] = [
-  [0x22 / 255, 0x26 / 255, 0x2c / 255],
-  [0x8d / 255, 0x97 / 255, 0xa6 / 255],
-  [0x52 / 255, 0x5a / 255, 0x66 / 255],
-];
+/** The colours of the materials, everywhere and in both themes: those of lib/pattern/phase_colours.hpp. */
+export const MATERIAL = {
+  soft: "#22262c",
+  rigid: "#8d97a6",
+  interface: "#525a66",
+};
+
+const rgbOf = (hex: string) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255) as Three;
 
 /** Colour of an element: 0xAABBGGRR, as ImageData holds it, by material (soft, rigid, interface) and energy level. */
 export function elementColours(levels: number): Uint32Array[] {
   const [begin, full, top] = [0.32, 0.62, 0.92];
-  return MATERIALS.map((material) =>
+  return [MATERIAL.soft, MATERIAL.rigid, MATERIAL.interface].map(rgbOf).map((material) =>
     Uint32Array.from({ length: levels }, (_, level) => {
       const share = level / (levels - 1);
       const rise = clamp((share - begin) / (full - begin));
@@ -77,14 +80,6 @@ export function elementColours(levels: number): Uint32Array[] {
     }),
   );
 }
-
-/** The colours of the materials, everywhere and in both themes: soft is dark, rigid light, as the inks TangoBlack and
- *  VeroWhite are. */
-export const MATERIAL = {
-  soft: hexOf(MATERIALS[0]), // #22262c
-  rigid: hexOf(MATERIALS[1]), // #8d97a6
-  interface: hexOf(MATERIALS[2]), // #525a66
-};
 
 export const BREAKING = "#0a9fd6"; // what broke since the frame before
 export const BREAKING_POINT = 0xffd69f0a; // the same, as ImageData holds it
@@ -102,7 +97,6 @@ export function themeColour(name: string): string {
 
 /** Colour of a round's simulated or measured points: earlier rounds are paler. */
 export function roundColour(kind: "sim" | "meas", round: number, newest: number): string {
-  const parse = (hex: string) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255) as Three;
   const age = newest > 0 ? (newest - round) / newest : 0;
-  return hexOf(blend(parse(themeColour(kind)), parse(themeColour("panel")), 0.62 * age));
+  return hexOf(blend(rgbOf(themeColour(kind)), rgbOf(themeColour("panel")), 0.62 * age));
 }

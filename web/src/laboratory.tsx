@@ -9,7 +9,7 @@ import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
 import { TERMS } from "./terms";
 
-const stateColumns = [
+const stateColumns = (waits: boolean) => [
   {
     ...TERMS.design,
     words: true,
@@ -24,7 +24,7 @@ const stateColumns = [
   {
     ...TERMS.designState,
     words: true,
-    show: (d: DesignState) => <DesignChip state={d.state} />,
+    show: (d: DesignState) => <DesignChip state={d.state} waits={waits} />,
     value: (d: DesignState) => d.state,
   },
   {
@@ -179,7 +179,7 @@ export function LaboratoryView({ info, rounds, playing }: { info: RunInfo; round
           rows={laboratory.designs}
           rowKey={(d) => d.design}
           empty="There is no design yet."
-          columns={stateColumns}
+          columns={stateColumns(info.approval && playing)}
         />
       </section>
     </>

@@ -188,18 +188,20 @@ export function Reason({ text, before = "" }: { text: string; before?: string })
 }
 
 const DESIGN_STATES: Record<string, string> = {
-  pending: "Proposed, neither approved nor ordered yet.",
+  "waits for approval": "The game asks for a yes or no.",
+  proposed: "Proposed, not ordered yet.",
   approved: "Ordered from the laboratory, nothing printed yet.",
   printed: "Printed, not all of it measured yet.",
   measured: "All that was ordered is measured.",
   rejected: "A person said no: it is not measured.",
 };
 
-/** How far a design has got, as `nacre designs` calls it. */
-export function DesignChip({ state }: { state: string }) {
+/** How far a design has got, as `nacre designs` calls it; `waits`: the game goes on and asks for approvals. */
+export function DesignChip({ state, waits }: { state: string; waits: boolean }) {
+  const words = state !== "pending" ? state : waits ? "waits for approval" : "proposed";
   return (
-    <span class={`chip ${state}`} title={DESIGN_STATES[state]}>
-      {state}
+    <span class={`chip ${state}`} title={DESIGN_STATES[words]}>
+      {words}
     </span>
   );
 }

@@ -103,7 +103,7 @@ export function Proposals({
                 </p>
                 <Reason text={p.reason} />
                 <p>
-                  <DesignChip state={state?.state ?? "pending"} />{" "}
+                  <DesignChip state={state?.state ?? "pending"} waits={waits} />{" "}
                   {state?.by && (
                     <span class="quiet">
                       {state.by}

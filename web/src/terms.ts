@@ -52,7 +52,7 @@ export const TERMS = {
   toughnessFit: term("fit error of\u00a0T", "Mean relative error of T after calibration, on the designs used for it."),
   equilibrium: term("equilibrium", "Whether two rounds running added nothing, and the comparison that decided it."),
 
-  designState: term("state", "How far the design has got: pending, approved, printed, measured, or rejected."),
+  designState: term("state", "How far the design has got: proposed, approved, printed, measured, or rejected."),
   proposedIn: term("proposed in round", "The round that proposed the design; a dash for designs that a person added."),
   ordered: term("ordered", "Specimens that the game has ordered."),
   printed: term("printed", "Specimens that have been printed."),
