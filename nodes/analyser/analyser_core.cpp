@@ -102,7 +102,8 @@ void AnalyserCore::store(const std::string& channel, const std::string& payload)
 void AnalyserCore::accept_request(const wire::DiagnoseRequest& request) {
   if (!diagnosed_.insert(request.round).second) return;
   waiting_diagnosis_ = request;
-  phase_ = fmt::format("diagnosing round {}", request.round);
+  phase_ = "diagnosing";
+  phase_round_ = request.round;
   diagnose_when_complete();
 }
 
@@ -139,7 +140,8 @@ void AnalyserCore::close_round(const wire::RoundSummary& round) {
   round_ = std::max(round_, round.round);
   last_ = last_ || round.last;
   report_due_ = round_;
-  phase_ = fmt::format("reporting round {}", round.round);
+  phase_ = "writing the report";
+  phase_round_ = round_;
   request_measured_designs();
   report_when_ready();
 }
@@ -292,7 +294,7 @@ runtime::Status AnalyserCore::status() const {
     phase = fmt::format("waiting for measurements of {} of {}: {}", count,
                         counted(std::ssize(waiting_diagnosis_->specimens), "specimen"), fmt::join(missing, ", "));
   }
-  return {.phase = std::move(phase), .round = round_, .progress = -1.0, .finished = finished_};
+  return {.phase = std::move(phase), .round = phase_round_, .progress = -1.0, .finished = finished_};
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {

@@ -87,6 +87,7 @@ class AnalyserCore : public runtime::NodeCore {
   bool last_ = false;
   bool finished_ = false;
   std::string phase_ = "idle";
+  int phase_round_ = 0;
 };
 
 /// With the ranges of scenario.ranges_file and the floor of scenario.discretisation_floor_file; the thesis' ranges, no

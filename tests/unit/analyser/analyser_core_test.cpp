@@ -227,7 +227,8 @@ TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   EXPECT_EQ(analyser.core.status().phase, "waiting for measurements of 1 of 2 specimens: b");
   analyser.receive("MEASUREMENT", measurement_of("b", 7));
   EXPECT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
-  EXPECT_EQ(analyser.core.status().phase, "diagnosing round 1");
+  EXPECT_EQ(analyser.core.status().phase, "diagnosing");
+  EXPECT_EQ(analyser.core.status().round, 1);
 }
 
 TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {

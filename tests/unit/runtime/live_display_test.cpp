@@ -116,8 +116,8 @@ TEST(LiveDisplay, LineOfTheGameSaysRoundStepAndTimeLeft) {
   EXPECT_EQ(game_line(views, 3), "round 1 of 3, searching, about 4 min left");
   views[2] = node("proposal_agent", "waiting for a model");
   views[3].phase = "waiting for the diagnosis";
-  views[1].phase = "diagnosing round 1";
-  EXPECT_EQ(game_line(views, 3), "round 1 of 3, diagnosing round 1");
+  views[1].phase = "diagnosing";
+  EXPECT_EQ(game_line(views, 3), "round 1 of 3, diagnosing");
   views[3].phase = "measuring, 2 of 6 orders complete";
   EXPECT_EQ(game_line(views, 3), "round 1 of 3, measuring, 2 of 6 orders complete");
 }
