@@ -14,6 +14,9 @@
 
 namespace nacre::diagnosis {
 
+/// Family-wise level of a name.
+inline constexpr double kNameLevel = 0.003;
+
 struct DiagnosisSettings {
   material::ParameterSet start;                                  ///< initial guess of the base fit
   material::ParameterRanges ranges = material::thesis_ranges();  ///< moduli and ratios may leave them: CoordinateMap
@@ -26,7 +29,7 @@ struct DiagnosisSettings {
   std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
   int threads = 0;                   ///< 0 all allowed cores
   bool check_discretisation = true;  ///< simulate three specimens with other discretisations too
-  double name_level = 0.003;         ///< family-wise level of a name
+  double name_level = kNameLevel;    ///< family-wise level of a name
   double unexplained_level = 0.01;   ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and the present step.
   std::function<void(double, std::string_view)> progress = {};

@@ -152,7 +152,7 @@ std::string status_cell(const CandidateEffect& c, Verdict verdict) {
   if (c.status == "in_set") return fmt::format("<strong>{}</strong>", status);
   if (c.status == "invisible") return status + " (it may act all the same)";
   if (c.status != "excluded") return status + " (these tests cannot show it)";
-  if (c.p_family_wise > diagnosis::DiagnosisSettings{}.name_level) return status + " (no sign of it)";
+  if (c.p_family_wise > diagnosis::kNameLevel) return status + " (no sign of it)";
   return status + (verdict == Verdict::unexplained ? " (improves the fit, but cannot be named)"
                                                    : " (improves the fit, but others explain the data better)");
 }
