@@ -9,6 +9,9 @@ set(NACRE_MODULES ${NACRE_GROUND} ${NACRE_PHYSICS} ${NACRE_KNOWLEDGE} ${NACRE_GA
 add_library(nacre_flags INTERFACE)
 # -ffp-contract=off: the agents' decisions are the same under every compiler; the simulation kernel fuses explicitly.
 target_compile_options(nacre_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+if(CMAKE_UNITY_BUILD) # sources are included there, so that GCC takes what stays inside one for a header's
+  target_compile_options(nacre_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 
 # nacre_module(NAME DEPENDS other modules... LIBRARIES external targets...)
 # Builds every .cpp of lib/NAME and lib/NAME/rivals into the static library nacre::NAME; the include root is lib/.

@@ -12,7 +12,7 @@
 namespace nacre::animation {
 namespace {
 
-constexpr double kLeft = 690.0, kRight = 932.0, kTop = 104.0, kBottom = 346.0;
+constexpr double kChartLeft = 690.0, kChartRight = 932.0, kChartTop = 104.0, kChartBottom = 346.0;
 constexpr std::uint32_t kAhead = 0xb4bcc7, kPassedArea = 0xd9f1fa;
 
 /// Distance of ticks for an axis of this length: 1, 2 or 5 times a power of ten, at most six of them.
@@ -33,8 +33,8 @@ struct ChartAxes {
     stress_mpa = std::max({1e-6 * highest, 1e-6 * film.peak_stress_pa, 1e-6}) * 1.1;
   }
   CanvasPoint at(double strain, double stress_pa) const {
-    const double x = kLeft + (kRight - kLeft) * 100.0 * strain / strain_percent;
-    const double y = kBottom - (kBottom - kTop) * 1e-6 * std::max(stress_pa, 0.0) / stress_mpa;
+    const double x = kChartLeft + (kChartRight - kChartLeft) * 100.0 * strain / strain_percent;
+    const double y = kChartBottom - (kChartBottom - kChartTop) * 1e-6 * std::max(stress_pa, 0.0) / stress_mpa;
     return {x, y};
   }
 };
@@ -45,23 +45,23 @@ void draw_axes(Canvas& canvas, const ChartAxes& axes) {
   const double across = tick_distance(axes.strain_percent), up = tick_distance(axes.stress_mpa);
   for (double value = 0.0; value <= axes.stress_mpa * 1.0001; value += up) {
     const double y = axes.at(0.0, 1e6 * value).y;
-    const std::array<CanvasPoint, 2> rule = {{{kLeft, y}, {kRight, y}}};
+    const std::array<CanvasPoint, 2> rule = {{{kChartLeft, y}, {kChartRight, y}}};
     canvas.line(rule, 0.7, kRule);
-    canvas.text({kLeft - 6.0, y + 4.3}, fmt::format("{:g}", std::round(value / up) * up), number_left);
+    canvas.text({kChartLeft - 6.0, y + 4.3}, fmt::format("{:g}", std::round(value / up) * up), number_left);
   }
   for (double value = 0.0; value <= axes.strain_percent * 1.0001; value += across) {
     const double x = axes.at(0.01 * value, 0.0).x;
-    const std::array<CanvasPoint, 2> tick = {{{x, kBottom}, {x, kBottom + 4.0}}};
+    const std::array<CanvasPoint, 2> tick = {{{x, kChartBottom}, {x, kChartBottom + 4.0}}};
     canvas.line(tick, 1.0, kInk);
-    canvas.text({x, kBottom + 18.0}, fmt::format("{:g}", std::round(value / across) * across), number);
+    canvas.text({x, kChartBottom + 18.0}, fmt::format("{:g}", std::round(value / across) * across), number);
   }
-  const std::array<CanvasPoint, 3> frame = {{{kLeft, kTop - 6.0}, {kLeft, kBottom}, {kRight, kBottom}}};
+  const std::array<CanvasPoint, 3> frame = {{{kChartLeft, kChartTop - 6.0}, {kChartLeft, kChartBottom}, {kChartRight, kChartBottom}}};
   canvas.line(frame, 1.2, kInk);
   const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = TextAnchor::centre};
-  canvas.text({0.5 * (kLeft + kRight), kBottom + 38.0}, "nominal strain in %", label);
+  canvas.text({0.5 * (kChartLeft + kChartRight), kChartBottom + 38.0}, "nominal strain in %", label);
   TextStyle turned = label;
   turned.upwards = true;
-  canvas.text({kLeft - 38.0, 0.5 * (kTop + kBottom)}, "nominal stress in MPa", turned);
+  canvas.text({kChartLeft - 38.0, 0.5 * (kChartTop + kChartBottom)}, "nominal stress in MPa", turned);
 }
 
 /// The curve up to a strain, which becomes its last point.
@@ -79,8 +79,8 @@ void draw_curve(Canvas& canvas, const film::Film& film, const ChartAxes& axes, c
     whole.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
   std::vector<CanvasPoint> passed = curve_until(film, axes, frame);
   std::vector<CanvasPoint> under = passed;
-  under.push_back({passed.back().x, kBottom});
-  under.push_back({passed.front().x, kBottom});
+  under.push_back({passed.back().x, kChartBottom});
+  under.push_back({passed.front().x, kChartBottom});
   canvas.area(under, kPassedArea);
   draw_axes(canvas, axes);
   canvas.line(whole, 1.6, kAhead);
@@ -109,14 +109,14 @@ void draw_figures(Canvas& canvas, const film::Film& film, const film::FilmFrame&
        {"energy absorbed", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
   double y = 418.0;
   for (const auto& [name, value] : now) {
-    canvas.text({kLeft - 44.0, y}, name, {.size = 13.0, .rgb = kFaint});
-    canvas.text({kRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = TextAnchor::right});
+    canvas.text({kChartLeft - 44.0, y}, name, {.size = 13.0, .rgb = kFaint});
+    canvas.text({kChartRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = TextAnchor::right});
     y += 20.0;
   }
-  const std::array<CanvasPoint, 2> rule = {{{kLeft - 44.0, y - 10.0}, {kRight, y - 10.0}}};
+  const std::array<CanvasPoint, 2> rule = {{{kChartLeft - 44.0, y - 10.0}, {kChartRight, y - 10.0}}};
   canvas.line(rule, 0.7, kRule);
-  canvas.text({kLeft - 44.0, 506.0}, "toughness", {.size = 13.0, .rgb = kInk, .bold = true});
-  canvas.text({kRight, 506.0}, fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * film.toughness_pa),
+  canvas.text({kChartLeft - 44.0, 506.0}, "toughness", {.size = 13.0, .rgb = kInk, .bold = true});
+  canvas.text({kChartRight, 506.0}, fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * film.toughness_pa),
               {.size = 13.0, .rgb = kInk, .bold = true, .anchor = TextAnchor::right});
 }
 

@@ -24,6 +24,12 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+double range_of(std::span<const double> values) {
+  if (values.empty()) return 0.0;
+  const auto [least, most] = std::ranges::minmax_element(values);
+  return *most - *least;
+}
+
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);

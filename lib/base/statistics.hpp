@@ -15,6 +15,9 @@ double root_mean_square(std::span<const double> values, int lost = 0);
 /// About the mean, over n - 1; 0 below two values.
 double standard_deviation(std::span<const double> values);
 
+/// Largest less smallest value; 0 of none.
+double range_of(std::span<const double> values);
+
 /// The value below which a share in [0, 1] of the values lies, interpolated between neighbours. At least one value.
 double quantile(std::vector<double> values, double share);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBodyBytes = 4u << 20;
 constexpr std::size_t kThreads = 24;  // a browser keeps six connections a tab, and a connection keeps a thread
-constexpr int kTimeout_s = 5, kIdle_s = 2, kTurn_ms = 100;
+constexpr int kTimeout_s = 5, kIdle_s = 2, kLook_ms = 100;
 constexpr std::size_t kRequestsPerConnection = 1000;
 
 Request request_of(const httplib::Request& from) {
@@ -108,7 +108,7 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
 
   ready(port);
   std::thread listening([&] { server.listen_after_bind(); });
-  while (!stop()) ::poll(nullptr, 0, kTurn_ms);
+  while (!stop()) ::poll(nullptr, 0, kLook_ms);
   server.stop();
   listening.join();
 }

@@ -13,7 +13,7 @@ constexpr double kFirstShares[] = {1.2, 1.45, 0.83, 0.67};
 /// In profile deviance: sizes that are so much less likely than the best are of no interest; between sizes that differ
 /// by more than a step a further one is tried, in so many rounds. A fit that is worse by so much is caught in a local
 /// minimum.
-constexpr double kOfInterest = 8.0, kStep = 2.5, kCaught = 30.0;
+constexpr double kOfInterest = 8.0, kLargestStep = 2.5, kCaught = 30.0;
 constexpr int kRounds = 4;
 /// Factor from the last size that is of interest to the next.
 constexpr double kBeyond = 1.6;
@@ -66,7 +66,7 @@ std::vector<double> missing_sizes(const SizeProfile& profile) {
   if (last_at.deviance - least < kOfInterest) missing.push_back(last > 0.0 ? kBeyond * last : last / kBeyond);
   for (auto a = profile.begin(), b = std::next(a); b != profile.end(); ++a, ++b) {
     const auto [low, high] = std::minmax(a->second.deviance, b->second.deviance);
-    if (low - least < kOfInterest && high - low > kStep) missing.push_back(0.5 * (a->first + b->first));
+    if (low - least < kOfInterest && high - low > kLargestStep) missing.push_back(0.5 * (a->first + b->first));
   }
   return missing;
 }

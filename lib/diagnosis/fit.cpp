@@ -20,7 +20,7 @@ namespace {
 
 /// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of
 /// log E.
-constexpr double kStep = 0.01;
+constexpr double kSlopeStep = 0.01;
 constexpr int kIterations = 12;
 /// A drop of chi2 that no threshold would notice.
 constexpr double kConverged = 0.02;
@@ -149,7 +149,7 @@ Eigen::VectorXd widened_start(const FittedModel& fit, const CoordinateMap& map) 
 FittedModel linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.map(effects);
   FittedModel fit = initial_fit(model, map, u);
-  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
+  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
   fit.free_all();
   fit.parameters = map.parameters(fit.u);
   return fit;
@@ -165,7 +165,7 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
+    fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
     fit.free = free_coordinates(fit, map, y, whitener, held);
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
@@ -184,7 +184,7 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
     }
     if (gained < kConverged) break;
   }
-  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
+  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
   fit.free = free_coordinates(fit, map, y, whitener, held);
   fit.parameters = map.parameters(fit.u);
   fit.extension_on_bound = ends_on_bound(map, fit.u);

@@ -7,6 +7,7 @@
 
 #include "base/matern.hpp"
 #include "base/parallel.hpp"
+#include "base/square.hpp"
 #include "diagnosis/coordinates.hpp"
 #include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
@@ -20,8 +21,6 @@ constexpr double kEffectLength = 0.5;  // in units of an effect's largest size
 constexpr double kOwnShare = 0.15;     // of an effect's variance that depends on eta
 constexpr double kNoEffect = 1e-3;     // share of the largest size below which an effect is none
 constexpr int kNearest = 5;            // runs whose curves stand for a fit's
-
-double square(double x) { return x * x; }
 
 double matern52_at(double distance) { return matern52(std::sqrt(5.0) * distance); }
 

@@ -12,7 +12,6 @@ namespace nacre::film {
 namespace {
 
 constexpr int kCurvePoints = 256;
-constexpr std::uint8_t kVoid = 3;
 /// A value is updated only when it is off by more than this share of a step: smaller waves would flicker and take half
 /// of the file.
 constexpr double kEnergyBand = 0.75, kDisplacementBand = 1.0;

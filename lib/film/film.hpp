@@ -18,6 +18,8 @@ inline constexpr int kEnergyLevels = 48;
 inline constexpr double kEnergyDecades = 3.2;
 /// Step of displacements, as a share of an element's side; they are right to within one step.
 inline constexpr double kDisplacementStep = 0.125;
+/// Material of an element that is empty.
+inline constexpr std::uint8_t kVoid = 3;
 
 /// One moment.
 struct FilmFrame {

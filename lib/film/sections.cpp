@@ -76,7 +76,6 @@ std::string displacement_bytes(const Film& film) {
   return bytes;
 }
 
-constexpr std::uint8_t kVoid = 3;
 
 Result<void> read_material(const std::string& bytes, Film& film) {
   film.material.assign(bytes.begin(), bytes.end());

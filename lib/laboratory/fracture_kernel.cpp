@@ -36,8 +36,6 @@ struct PointResponse {
           .jacobian = j};
 }
 
-constexpr float kGauss = 0.57735027f;
-
 }  // namespace
 
 NACRE_VECTOR_CLONES

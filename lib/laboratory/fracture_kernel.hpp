@@ -8,6 +8,9 @@
 
 namespace nacre::laboratory {
 
+/// Distance of a quadrature point from the middle of its element, in half sides: 1 / sqrt(3).
+inline constexpr float kGauss = 0.57735027f;
+
 /// A row of elements: its lower and upper row of nodes (columns + 1 entries), its constants (columns entries), and what
 /// it returns.
 struct ElementRow {

@@ -9,7 +9,6 @@
 namespace nacre::laboratory {
 namespace {
 
-constexpr float kGauss = 0.57735027f;
 constexpr float kMostFilled = 0.98f;
 
 NACRE_ALWAYS_INLINE float larger(float a, float b) { return a > b ? a : b; }

@@ -1,6 +1,7 @@
 #pragma once
 // Feasible ranges of the parameters of the two testers: the thesis' Tables A.1 and A.2, or those of other inks.
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <span>
@@ -17,6 +18,7 @@ struct ParameterRange {
   double minimum = 0.0;
   double maximum = 0.0;
   bool logarithmic() const { return maximum > 10.0 * minimum && minimum > 0.0; }
+  double clamped(double value) const { return std::clamp(value, minimum, maximum); }
   bool operator==(const ParameterRange&) const = default;
 };
 

@@ -8,8 +8,6 @@
 namespace nacre::measurement {
 namespace {
 
-bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-
 /// Where the unit begins: at the first letter that is no exponent, or at a per cent sign.
 std::size_t begin_of_unit(std::string_view cell) {
   for (std::size_t i = 1; i < cell.size(); ++i) {

@@ -9,7 +9,7 @@ namespace nacre::measurement {
 namespace {
 
 constexpr double kFrom = 0.1, kTo = 0.4;             // of the peak stress
-constexpr double kStill = 0.3, kJump = 3.0;          // of the expected strain of a stretch
+constexpr double kStalled = 0.3, kJump = 3.0;          // of the expected strain of a stretch
 constexpr std::size_t kFewestRows = 5, kFewest = 3;  // of a stretch; left out at least
 
 double clock_at(const std::vector<double>& time_s, std::size_t row) {
@@ -82,7 +82,7 @@ PullStart pull_start(const std::vector<double>& time_s, const tester::Curve& cur
     while (begin > 0 && clock_at(time_s, begin) == clock_at(time_s, end)) --begin;
     const double expected = speed * (clock_at(time_s, end) - clock_at(time_s, begin));
     const double strained = curve.strain[end] - curve.strain[begin];
-    if (expected > 0.0 && end - begin >= kFewest && (strained < kStill * expected || strained > kJump * expected)) {
+    if (expected > 0.0 && end - begin >= kFewest && (strained < kStalled * expected || strained > kJump * expected)) {
       const PullStart start = start_within(time_s, curve, begin, end, speed);
       return start.row >= kFewest ? start : PullStart{};
     }

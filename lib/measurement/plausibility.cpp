@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/statistics.hpp"
 #include "measurement/limits.hpp"
 
 namespace nacre::measurement {
@@ -36,11 +37,6 @@ Usual usual_of(const UnitEvidence& evidence) {
 double power_of_ten(double from, double to) {
   const double power = std::log10(std::abs(to / from)), nearest = std::round(power);
   return nearest != 0.0 && std::abs(power - nearest) < kPowerOfTen ? nearest : 0.0;
-}
-
-double range_of(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least;
 }
 
 std::string heading_of(const TesterRecord& record, Quantity quantity) {

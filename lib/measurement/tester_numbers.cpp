@@ -10,8 +10,6 @@
 namespace nacre::measurement {
 namespace {
 
-bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-
 /// Whether every letter is one that std::from_chars() and the marks know, so that no sign has to be rewritten.
 bool is_plain(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char letter) {

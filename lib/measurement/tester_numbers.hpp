@@ -19,6 +19,9 @@ std::optional<double> instrument_number(std::string_view text, DecimalMark mark)
 /// The decimal mark that a single cell implies: `1,5` comma, `1.5` point, `1,234` or `12` none.
 std::optional<DecimalMark> decimal_evidence(std::string_view text);
 
+/// 0 to 9.
+constexpr bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+
 /// Whether the cell looks like a number under either mark.
 bool looks_like_number(std::string_view text);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/csv.hpp"
+#include "base/statistics.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
@@ -31,12 +32,6 @@ const std::vector<double>& abscissa_of(const ColumnSeries& series) {
 }
 const std::vector<double>& ordinate_of(const ColumnSeries& series) {
   return series.column(Quantity::stress) ? series.of(Quantity::stress) : series.of(Quantity::force);
-}
-
-double range_of(const std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least;
 }
 
 ColumnSeries rows_of_series(const ColumnSeries& series, std::size_t begin, std::size_t end) {

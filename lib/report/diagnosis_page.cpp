@@ -56,10 +56,6 @@ std::string headline(const Diagnosis& d) {
   return "Something is wrong that no known cause explains";
 }
 
-void add_figures(Exhibit& exhibit, std::vector<std::string> svgs) {
-  for (std::string& svg : svgs) exhibit.figures.push_back({"", std::move(svg)});
-}
-
 /// What the residuals follow.
 std::string trend_in_words(const Diagnosis& d) {
   if (d.verdict == Verdict::base_sufficient) {

@@ -117,6 +117,10 @@ void ExhibitTable::add(std::vector<Cell> row, TableRowKind kind) {
   kinds.push_back(kind);
 }
 
+void add_figures(Exhibit& exhibit, std::vector<std::string> svgs) {
+  for (std::string& svg : svgs) exhibit.figures.push_back({"", std::move(svg)});
+}
+
 std::string awaited(std::string_view what) {
   return fmt::format("<em class=\"awaited\">Still awaited: {}.</em>", what);
 }

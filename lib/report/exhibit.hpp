@@ -65,6 +65,9 @@ struct Exhibit {
   std::vector<std::string> fine_print = {};  ///< HTML: how it was computed
 };
 
+/// Drawings without captions, behind those that are there.
+void add_figures(Exhibit& exhibit, std::vector<std::string> svgs);
+
 /// A note that stands for what is still to come.
 std::string awaited(std::string_view what);
 

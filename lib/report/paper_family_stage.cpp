@@ -90,7 +90,7 @@ ExhibitTable errors_table(const PaperSource& source, const std::string& name, bo
 }
 
 /// Table A.5 (E) or A.6 (T).
-Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading,
+Exhibit variants_appendix(const PaperSource& source, const std::string& id, const std::string& heading,
                  std::optional<double> game::DesignValues::*property) {
   Exhibit exhibit{.id = id, .heading = heading};
   const bool is_modulus = property == &game::DesignValues::modulus_pa;
@@ -312,12 +312,12 @@ Exhibit validation_exhibit(const PaperSource& source) {
 }
 
 Exhibit family_modulus_appendix(const PaperSource& source) {
-  return appendix(source, "table-a-5", "Table A.5: E of the designs of the family stage",
+  return variants_appendix(source, "table-a-5", "Table A.5: E of the designs of the family stage",
                   &game::DesignValues::modulus_pa);
 }
 
 Exhibit family_toughness_appendix(const PaperSource& source) {
-  return appendix(source, "table-a-6", "Table A.6: T of the designs of the family stage",
+  return variants_appendix(source, "table-a-6", "Table A.6: T of the designs of the family stage",
                   &game::DesignValues::toughness_pa);
 }
 

@@ -75,7 +75,7 @@ std::vector<Cell> row_of(const ComparedDesign& design) {
           shown_cell(fmt::format("{}", m.round))};
 }
 
-ExhibitTable empty_table() {
+ExhibitTable empty_best_table() {
   return {.name = "",
           .columns = {{"", "", ""},
                       {"", "pattern", "Its key; docs/FORMATS.md says how to read it"},
@@ -113,7 +113,7 @@ Exhibit best_exhibit(const store::RunRecord& run) {
     exhibit.notes.push_back(awaited("the first pattern with both E and T measured"));
     return exhibit;
   }
-  ExhibitTable table = empty_table();
+  ExhibitTable table = empty_best_table();
   std::optional<double> best_modulus, best_toughness;
   for (const ComparedDesign& design : front) {
     table.add(row_of(design));

@@ -9,7 +9,6 @@
 namespace nacre::report {
 namespace {
 
-constexpr std::string_view kDash = "–";
 
 Cell dash() { return shown_cell(std::string(kDash)); }
 
@@ -60,7 +59,7 @@ std::vector<Cell> thesis_row(const ThesisRound& t, bool is_last) {
           pair(t.after_toughness, t.after_toughness_max)};
 }
 
-ExhibitTable empty_table() {
+ExhibitTable empty_error_table() {
   constexpr const char* kNew = "prediction error (out-of-sample)";
   constexpr const char* kTrivial = "without structure";
   constexpr const char* kModulus = "error of E, mean (max)";
@@ -93,7 +92,7 @@ Exhibit error_exhibit(const store::RunRecord& run) {
       "measured. These errors say how far the simulation can be trusted. They should be smaller than those of two "
       "predictions that know nothing of structure: E on a straight line in the rigid fraction, and one best T for "
       "all patterns.");
-  ExhibitTable table = empty_table();
+  ExhibitTable table = empty_error_table();
   for (const auto& [number, round] : run.rounds)
     if (round.summary) table.add(own_row(run, number, *round.summary));
   if (table.rows.empty()) exhibit.notes.push_back(awaited("the end of round 0"));

@@ -4,14 +4,6 @@
 #include "report/report_standing.hpp"
 
 namespace nacre::report {
-namespace {
-
-void add_figures(Exhibit& exhibit, std::vector<std::string> svgs) {
-  for (std::string& svg : svgs) exhibit.figures.push_back({"", std::move(svg)});
-}
-
-}  // namespace
-
 Exhibit gamut_exhibit(const store::RunRecord& run) {
   Exhibit exhibit{.id = "gamuts", .heading = "Simulation and measurements, round by round"};
   add_figures(exhibit, gamut_figures(run));

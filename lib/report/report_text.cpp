@@ -12,7 +12,6 @@
 namespace nacre::report {
 namespace {
 
-constexpr std::string_view kDash = "–";
 constexpr std::size_t kLongName = 20, kShownOfLongName = 9;
 
 /// A hyphen is too short for a minus.

@@ -7,6 +7,8 @@
 
 namespace nacre::report {
 
+inline constexpr std::string_view kDash = "–";  ///< for what is not known
+
 /// `value` with about three significant digits and no exponent; a dash when it is not finite.
 std::string figure(double value);
 /// A share as a percentage: `0.0653` becomes "6.5 %"; above 100 % without decimals.

@@ -30,7 +30,6 @@ std::size_t at(Value place, int material) {
 
 double middle_of(const ParameterRange& range) { return 0.5 * (range.minimum + range.maximum); }
 
-double clamped(double value, const ParameterRange& range) { return std::clamp(value, range.minimum, range.maximum); }
 
 /// One candidate of one material; `modulus_pa` of theta or `trial` of eta.
 struct CandidateConstant {
@@ -128,8 +127,8 @@ struct BaseCalibration::State {
   ParameterSet centred_start() const {
     material::ModulusVector theta = to_vector(settings.start.modulus);
     material::ToughnessVector eta = to_vector(settings.start.toughness);
-    for (std::size_t j = 0; j < theta.size(); ++j) theta[j] = clamped(theta[j], theta_ranges()[j]);
-    for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = clamped(eta[j], eta_ranges()[j]);
+    for (std::size_t j = 0; j < theta.size(); ++j) theta[j] = theta_ranges()[j].clamped(theta[j]);
+    for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = eta_ranges()[j].clamped(eta[j]);
     for (int m = 0; m < kMaterials; ++m) {
       theta[at(kNu0, m)] = middle_of(theta_ranges()[at(kNu0, m)]);
       eta[at(kNu0, m)] = middle_of(eta_ranges()[at(kNu0, m)]);

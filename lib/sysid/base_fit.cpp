@@ -17,10 +17,6 @@ constexpr std::array kModulusFactors = {1.0, 0.5, 2.0, 0.25};
 /// Across a bracket of W narrower than this T is taken to jump; scaling E and W meets what is left.
 constexpr double kNarrowest = 0.02;
 
-double clamped(double value, const material::ParameterRange& range) {
-  return std::clamp(value, range.minimum, range.maximum);
-}
-
 double peak_of(const tester::Curve& curve) {
   return curve.empty() ? 0.0 : *std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
 }
@@ -30,8 +26,8 @@ double peak_of(const tester::Curve& curve) {
 MaterialFit::MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges,
                          const MaterialTrial& start, int budget)
     : measured_(measured), ranges_(ranges), start_(start), budget_(budget) {
-  start_ = {clamped(start.e_pa, ranges.e), clamped(start.w_j_per_m3, ranges.w),
-            clamped(start.gamma_per_s, ranges.gamma)};
+  start_ = {ranges.e.clamped(start.e_pa), ranges.w.clamped(start.w_j_per_m3),
+            ranges.gamma.clamped(start.gamma_per_s)};
   best_ = start_;
   begin_threshold(start_.e_pa, start_.w_j_per_m3);
 }
@@ -58,7 +54,7 @@ void MaterialFit::begin_scale() {
 
 MaterialTrial MaterialFit::trial_at(double x) const {
   if (kind_ == Search::threshold) return {origin_.e_pa, x, origin_.gamma_per_s};
-  return {clamped(x * origin_.e_pa, ranges_.e), clamped(x * origin_.w_j_per_m3, ranges_.w), origin_.gamma_per_s};
+  return {ranges_.e.clamped(x * origin_.e_pa), ranges_.w.clamped(x * origin_.w_j_per_m3), origin_.gamma_per_s};
 }
 
 std::vector<MaterialTrial> MaterialFit::ask(int count) {
@@ -78,7 +74,7 @@ bool MaterialFit::match_peak() {
   const double measured_peak = peak_of(measured_.representative_curve), peak = peak_of(best_prediction_.curve);
   if (measured_peak <= 0.0 || peak <= 0.0 || ++peak_matches_ > kMostPeakMatches) return false;
   const double factor = measured_peak / peak;
-  const double e_pa = clamped(best_.e_pa * factor * factor, ranges_.e);
+  const double e_pa = ranges_.e.clamped(best_.e_pa * factor * factor);
   if (std::abs(factor - 1.0) < kPeakTolerance || e_pa == best_.e_pa) return false;
   begin_threshold(e_pa, best_.w_j_per_m3);
   return true;
@@ -91,8 +87,8 @@ bool MaterialFit::next_search() {
     return true;
   }
   while (++modulus_ < kModulusFactors.size()) {
-    const double e_pa = clamped(start_.e_pa * kModulusFactors[modulus_], ranges_.e);
-    if (e_pa == clamped(start_.e_pa * kModulusFactors[modulus_ - 1], ranges_.e)) continue;
+    const double e_pa = ranges_.e.clamped(start_.e_pa * kModulusFactors[modulus_]);
+    if (e_pa == ranges_.e.clamped(start_.e_pa * kModulusFactors[modulus_ - 1])) continue;
     begin_threshold(e_pa, start_.w_j_per_m3);
     return true;
   }

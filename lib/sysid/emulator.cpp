@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/matern.hpp"
+#include "base/square.hpp"
 #include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
@@ -23,8 +24,6 @@ constexpr double kGammaDeviation = 0.15;   // of the sensitivity to log gamma
 constexpr double kPoissonDeviation = 0.2;  // over the whole range of a Poisson's ratio
 
 constexpr double kSmallestNoise = 0.03;  // of a residual, when deviations are computed
-
-double square(double x) { return x * x; }
 
 /// Covariance of the linear part over one group of three materials: sensitivities s = mean + split with sum zero +
 /// common.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/square.hpp"
 #include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
@@ -11,8 +12,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPriorFreedom = 6.0;  // as many designs' worth of belief in scatter and floor
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/square.hpp"
+
 namespace nacre::sysid {
 namespace {
-
-double square(double x) { return x * x; }
 
 /// Of a logarithm: no measurement is written with more digits, and replicates that agree exactly have no scatter at
 /// all.

@@ -17,7 +17,7 @@ namespace nacre::sysid {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastGain = 1e-3;  // relative gain in cost below which the fit has converged
+constexpr double kConvergedGain = 1e-3;  // relative gain in cost below which the fit has converged
 
 /// The least-squares problem of one tester's parameters.
 struct LeastSquaresProblem {
@@ -197,7 +197,7 @@ class LeastSquaresFit final : public RecordedFit {
 
   void judge_steps() {
     const double gain = start_cost_ - cost(trials_[best_]);
-    if (best_ != centre_ && gain > kLeastGain * start_cost_) {
+    if (best_ != centre_ && gain > kConvergedGain * start_cost_) {
       differencing_ = true;
     } else if (best_ != centre_ || damping_ > kLastDamping) {
       finished_ = true;

@@ -20,7 +20,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 Prediction stored_form(const Prediction& prediction) {
   Prediction result = prediction;
@@ -98,7 +98,7 @@ const Prediction& PredictionStore::put(const std::string& key, const Prediction&
   const Prediction& kept = known_[key] = stored_form(prediction);
   if (file_) {
     const Head head{static_cast<std::uint32_t>(key.size()), static_cast<std::uint32_t>(kept.curve.size()),
-                    kept.modulus_pa.value_or(kNone), kept.toughness_pa.value_or(kNone)};
+                    kept.modulus_pa.value_or(kAbsent), kept.toughness_pa.value_or(kAbsent)};
     std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
     bytes += key;
     append_floats(bytes, kept.curve.strain);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFirstStep = 0.2;
+constexpr double kFirstSpread = 0.2;
 constexpr double kSmallestStep = 1e-5;  // of the whole distribution, before the search restarts
 constexpr double kOutside =
     1.0;  // cost per squared distance from the cube, in units of the generation's spread of values
@@ -73,7 +73,7 @@ class CmaEs final : public RecordedOptimizer {
     mean_ = best()                     ? to_vector(best()->point)
             : settings_.starts.empty() ? VectorXd::Constant(dimension(), 0.5)
                                        : to_vector(settings_.starts.front());
-    step_ = kFirstStep;
+    step_ = kFirstSpread;
     covariance_ = axes_ = MatrixXd::Identity(dimension(), dimension());
     scales_ = VectorXd::Ones(dimension());
     step_path_ = covariance_path_ = VectorXd::Zero(dimension());
@@ -132,7 +132,7 @@ class CmaEs final : public RecordedOptimizer {
   bool begun_ = false;
   VectorXd mean_, scales_, step_path_, covariance_path_;
   MatrixXd covariance_, axes_;
-  double step_ = kFirstStep;
+  double step_ = kFirstSpread;
   int generation_ = 0, first_of_generation_ = 0;
   std::vector<VectorXd> drawn_;  ///< of this generation, as drawn: also outside the cube
 };

@@ -10,10 +10,10 @@
 namespace nacre::sysid {
 namespace {
 
-constexpr double kFirstRadius = 0.7;  // of the trust region, in natural logarithms: a factor of two
-constexpr double kLargestRadius = 1.0;
-constexpr double kSmallestRadius = 0.05;
-constexpr double kLeastGain = 1e-3;  // relative gain that counts as progress
+constexpr double kRivalFirstRadius = 0.7;  // of the trust region, in natural logarithms: a factor of two
+constexpr double kRivalLargestRadius = 1.0;
+constexpr double kRivalSmallestRadius = 0.05;
+constexpr double kRivalLeastGain = 1e-3;  // relative gain that counts as progress
 
 class EmulatorFit final : public EtaFit {
  public:
@@ -27,14 +27,14 @@ class EmulatorFit final : public EtaFit {
     const double before = starting ? 0.0 : cost(trials_[best_]);
     record_asked(std::move(predictions));
     if (starting) return;
-    const bool gained = cost(trials_[best_]) < (1.0 - kLeastGain) * before;
-    radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : 0.5 * radius_;
+    const bool gained = cost(trials_[best_]) < (1.0 - kRivalLeastGain) * before;
+    radius_ = gained ? std::min(kRivalLargestRadius, 1.3 * radius_) : 0.5 * radius_;
   }
 
  private:
   std::vector<Point> propose() override {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
-    if (count <= 0 || radius_ < kSmallestRadius) return {};
+    if (count <= 0 || radius_ < kRivalSmallestRadius) return {};
     if (trials_.empty()) return first_points();
     std::vector<Point> points;
     emulator_.learn(trials_, best_);
@@ -61,7 +61,7 @@ class EmulatorFit final : public EtaFit {
   FeatureEmulator emulator_;
   WarpedObjective predicted_;
   std::vector<FeatureChange> changes_;
-  double radius_ = kFirstRadius;
+  double radius_ = kRivalFirstRadius;
 };
 
 }  // namespace

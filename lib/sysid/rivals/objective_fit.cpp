@@ -11,8 +11,8 @@
 namespace nacre::sysid {
 namespace {
 
-constexpr double kScaleReach = 2.3;  // natural logarithm of ten
-constexpr int kScaleSteps = 25;
+constexpr double kWideReach = 2.3;  // natural logarithm of ten
+constexpr int kWideSteps = 25;
 constexpr double kRepeatability = 0.1;  // of one design's share of the objective: toughness and curve jump together
 
 class ObjectiveFit final : public EtaFit {
@@ -64,7 +64,7 @@ class ObjectiveFit final : public EtaFit {
       emulator.predict(point, changes);
       return predicted(changes) + pull_on(point);
     };
-    const Move scales = best_scales(expected, kScaleReach, kScaleSteps);
+    const Move scales = best_scales(expected, kWideReach, kWideSteps);
     return expected(scales) < cost(from) ? moved(from.point, scales, spans_) : from.point;
   }
 
