@@ -60,7 +60,7 @@ function(nacre_test name)
   target_link_libraries(${target} PRIVATE nacre_flags ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE NACRE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                NACRE_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests UNITY_BUILD OFF)
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${target})
   nacre_test_in_suite(${ARG_LABEL} ${name} ${ARG_TIMEOUT})
 endfunction()
