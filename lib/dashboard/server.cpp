@@ -58,6 +58,17 @@ std::string why_not_listening(const std::string& host, int reason) {
   return fmt::format("cannot be listened to: {}", std::strerror(reason));
 }
 
+/// The port that the server has; throws InputError when it gets none.
+int bound_port(httplib::Server& server, const ServerSettings& settings) {
+  const int wanted = settings.port.value_or(kUsualPort);
+  errno = 0;
+  if (wanted != 0 && server.bind_to_port(settings.host, wanted)) return wanted;
+  if (wanted == 0 || (!settings.port && errno == EADDRINUSE)) {
+    if (const int port = server.bind_to_any_port(settings.host); port > 0) return port;
+  }
+  throw InputError::format("{}:{}: {}", settings.host, wanted, why_not_listening(settings.host, errno));
+}
+
 }  // namespace
 
 void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
@@ -75,12 +86,7 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
-  errno = 0;
-  const int port = settings.port == 0                                  ? server.bind_to_any_port(settings.host)
-                   : server.bind_to_port(settings.host, settings.port) ? settings.port
-                                                                       : -1;
-  if (port <= 0)
-    throw InputError::format("{}:{}: {}", settings.host, settings.port, why_not_listening(settings.host, errno));
+  const int port = bound_port(server, settings);
   AccessRules rules{
       .hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
 

@@ -2,6 +2,7 @@
 // The sockets; server.cpp alone includes the HTTP library.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,12 @@
 
 namespace nacre::dashboard {
 
+inline constexpr int kUsualPort = 8765;
+
 struct ServerSettings {
   std::string host = "127.0.0.1";
-  int port = 8765;                              ///< 0: any free one
-  std::string token;                            ///< see AccessRules
+  std::optional<int> port;  ///< 0: any free one; nothing: kUsualPort, or a free one where it is taken
+  std::string token;        ///< see AccessRules
   std::vector<std::string> further_hosts = {};  ///< names that a tunnel or a proxy keeps, with or without a port
 };
 

@@ -134,7 +134,9 @@ class Launch {
  private:
   /// Joins a run that another launcher, on another machine, has begun and will sum up.
   bool is_guest() const { return !options_.only.empty(); }
+  SupervisedNode::Settings helper(const std::string& name, std::vector<std::string> arguments) const;
   void start_recorder();
+  void start_dashboard();
   void open_endpoint();
   std::vector<std::string> command_of(const std::string& node) const;
   void start_nodes();
@@ -157,6 +159,7 @@ class Launch {
   Interrupts interrupts_;
   LiveDisplay display_;
   std::unique_ptr<SupervisedNode> recorder_;
+  std::unique_ptr<SupervisedNode> dashboard_;  ///< where one is wanted; the game goes on without it
   std::vector<std::unique_ptr<SupervisedNode>> nodes_;
   std::unique_ptr<Endpoint> endpoint_;
   bool recorder_is_ready_ = false;
@@ -168,15 +171,25 @@ class Launch {
   Clock::time_point checked_for_end_ = Clock::now();
 };
 
+/// A command of nacre that is no node.
+SupervisedNode::Settings Launch::helper(const std::string& name, std::vector<std::string> arguments) const {
+  arguments.insert(arguments.begin(), (options_.nacre.empty() ? this_program() : options_.nacre).string());
+  return {.name = name,
+          .command = std::move(arguments),
+          .log_file = run_.node_folder(name) / "output.log",
+          .restarts = options_.restarts};
+}
+
 void Launch::start_recorder() {
-  const fs::path nacre = options_.nacre.empty() ? this_program() : options_.nacre;
   recorder_ = std::make_unique<SupervisedNode>(
-      SupervisedNode::Settings{.name = "recorder",
-                               .command = {nacre.string(), "record", "--log", run_.bus_log().string(), "--port",
-                                           std::to_string(port_->port()), "--hosts", run_.scenario().hosts},
-                               .log_file = run_.node_folder("recorder") / "output.log",
-                               .restarts = options_.restarts});
+      helper("recorder", {"record", "--log", run_.bus_log().string(), "--port", std::to_string(port_->port()),
+                          "--hosts", run_.scenario().hosts}));
   recorder_->start();
+}
+
+void Launch::start_dashboard() {
+  dashboard_ = std::make_unique<SupervisedNode>(helper("dashboard", {"dashboard", run_.path().string()}));
+  dashboard_->start();
 }
 
 void Launch::open_endpoint() {
@@ -244,6 +257,8 @@ void Launch::take_message(const Received& received) {
 void Launch::show_output(SupervisedNode& node) {
   for (const std::string& line : node.take_output()) {
     if (&node == recorder_.get() && line.rfind("recording", 0) == 0) recorder_is_ready_ = true;
+    if (&node == dashboard_.get() && line.starts_with("http"))
+      display_.say(fmt::format("see it live in the browser: {}", line));
     if (line.starts_with(kWaitsForDebugger)) display_.say(fmt::format("{} {}", node.name(), line));
     if (!display_.on_terminal()) std::fprintf(stderr, "%s | %s\n", node.name().c_str(), line.c_str());
   }
@@ -257,7 +272,9 @@ void Launch::turn(std::chrono::milliseconds wait) {
     std::this_thread::sleep_for(wait);
   }
   std::vector<SupervisedNode*> processes = nodes();
-  if (recorder_) processes.push_back(recorder_.get());
+  for (const auto* process : {&recorder_, &dashboard_}) {
+    if (*process) processes.push_back(process->get());
+  }
   for (SupervisedNode* process : processes) {
     show_output(*process);
     if (const auto news = process->supervise(Clock::now())) display_.say(*news);
@@ -354,6 +371,8 @@ void Launch::sum_up(bool is_complete) {
   }
   const fs::path report = run_.path() / "report.html";
   if (fs::exists(report)) print_line(stdout, "report: " + report.string());
+  if (options_.dashboard)
+    print_line(stdout, fmt::format("page: `nacre dashboard {}`", shell_word(fs::proximate(run_.path()))));
   print_line(stdout, "run: " + run_.path().string());
   if (!is_complete) {
     print_line(stdout, fmt::format("the game is not over: `nacre launch --resume {}` goes on with it{}",
@@ -367,6 +386,7 @@ int Launch::play() {
   display_.say(
       fmt::format("run {} on UDP port {}, in {}", run_.manifest().run_id, port_->port(), run_.path().string()));
   open_endpoint();
+  if (options_.dashboard) start_dashboard();
   if (!is_guest()) start_recorder();
   while (recorder_ && !recorder_is_ready_ && recorder_->state() != State::failed && !interrupts_.any()) turn(kTurn);
   bool is_complete = false;
@@ -379,7 +399,9 @@ int Launch::play() {
   const bool was_interrupted = interrupts_.any() && !is_complete;
   display_.say(is_complete ? "the game is over" : was_interrupted ? "stopping" : why_it_cannot_go_on() + ": stopping");
   stop(nodes());
-  if (recorder_) stop({recorder_.get()});
+  for (const auto* process : {&recorder_, &dashboard_}) {
+    if (*process) stop({process->get()});
+  }
   if (!is_guest()) sum_up(is_complete);
   std::fflush(stdout);
   std::clearerr(stdout);  // a reader who has gone takes nothing from the game

@@ -3,6 +3,7 @@
 #include "dashboard/dashboard.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace {
 struct Options {
   std::string run = "logs/latest";
   std::string host = "127.0.0.1";
-  int port = 8765;
+  std::optional<int> port;
   std::string token;
   std::string families;
   std::string page;
@@ -67,9 +68,10 @@ void add_dashboard(CLI::App& app, Action& action) {
   CLI::App& command =
       add_command(app, action, "dashboard", "Show a run in the browser, live or afterwards", options, show_dashboard);
   command.add_option("RUN,--run", options->run, "Folder of the run")->capture_default_str();
-  command.add_option("--port", options->port, "Port of the page; 0: any free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
+  command
+      .add_option("--port", options->port,
+                  "Port of the page; 0: any free one; default: 8765, or a free one where another program has that")
+      ->check(CLI::Range(0, 65535));
   command.add_option("--host", options->host, "Address to listen on; one that other machines reach asks for a token")
       ->capture_default_str();
   command

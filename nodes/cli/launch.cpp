@@ -129,6 +129,7 @@ void add_launch(CLI::App& app, Action& action) {
   command.add_option("--port", options->port, "UDP port of the run instead of the scenario's; 0: any free one")
       ->check(CLI::Range(0, 65535));
   command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: that of nacre");
+  command.add_flag("--dashboard", options->dashboard, "Show the run in the browser while it plays; prints the address");
   add_seed(command, options->seed, "Seed instead of the scenario's");
   command
       .add_option_function<double>(
