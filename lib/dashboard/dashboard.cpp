@@ -12,6 +12,7 @@
 #include "dashboard/laboratory_view.hpp"
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/rounds_view.hpp"
+#include "game/starting_point.hpp"
 #include "runtime/bus.hpp"
 #include "store/measured_patterns.hpp"
 
@@ -61,6 +62,9 @@ std::string model_of(const Request& request) {
 Response conflict_response(const std::string& reason) {
   return json_response({{"answer", to_string(Delivery::conflicting)}, {"error", reason}}, 409);
 }
+
+/// The model before anything was fitted: what breaks while the first search has only begun.
+constexpr std::string_view kStart = "start";
 
 bool is_round(const std::string& model) { return model.find_first_not_of("0123456789") == std::string::npos; }
 
@@ -154,12 +158,19 @@ Response Dashboard::run(const Request&) {
 
 Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
+  const auto search = desk_.search();
   return json_response({{"playing", is_playing(nodes)},
-                        {"data", data_.version()},
+                        {"data", fmt::format("{}/{}", data_.version(), search ? search->patterns : 0)},
                         {"nodes", nodes_json(nodes, is_known_to_be_over(data_))}});
 }
 
-Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
+std::map<int, int> Dashboard::gamut_sizes() {
+  std::map<int, int> sizes = data_.gamut_sizes();
+  if (const auto search = desk_.search()) sizes.emplace(search->round, search->patterns);
+  return sizes;
+}
+
+Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), gamut_sizes())); }
 
 Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {
@@ -170,9 +181,11 @@ Response Dashboard::gamut(const Request& request) {
   }
   const int round = round_of(request);
   const auto gamut = data_.gamut(round);
-  if (gamut->patterns.empty() && !data_.record()->rounds.contains(round))
+  if (!gamut->patterns.empty()) return binary(gamut_bytes(*gamut, round));
+  const store::RecordedGamut searched = desk_.searched(round);
+  if (searched.patterns.empty() && !data_.record()->rounds.contains(round))
     return error_response(404, "there is no such round");
-  return binary(gamut_bytes(*gamut, round));
+  return binary(gamut_bytes(searched, round));
 }
 
 Response Dashboard::design(const Request& request) {
@@ -199,6 +212,7 @@ std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string
 }
 
 Result<material::ParameterSet> Dashboard::parameters_of(const FractureRequest& fracture) {
+  if (fracture.model == kStart) return game::starting_model(settings_.scenario);
   if (!fracture.is_of_folder)
     if (const auto parameters = model_of_game(fracture.model)) return *parameters;
   if (is_round(fracture.model)) return fail("round {} has no model yet", fracture.model);

@@ -60,6 +60,9 @@ class Dashboard {
   Response simulate(const Request&);
   Response group(const Request&);
 
+  /// Sizes of the gamuts of all rounds, and of the one that is being searched as far as it has come.
+  std::map<int, int> gamut_sizes();
+
   /// A design whose fracture is asked for, and with which model: the number of a round or the name of a family.
   struct FractureRequest {
     pattern::Design design;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dashboard/live_search.hpp"
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
@@ -76,6 +77,10 @@ class Desk {
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.
   virtual std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) = 0;
+  /// The search that is under way, or the last one; nothing before its first result.
+  virtual std::optional<LiveSearch::Progress> search() = 0;
+  /// What that search has simulated so far; empty for the rounds before.
+  virtual store::RecordedGamut searched(int round) = 0;
   // Entering: waits some seconds for the validation agent.
   virtual Delivery enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Delivery review(const SpecimenReview& review) = 0;

@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -38,9 +39,14 @@ std::string LiveFeed::problem() const {
   return problem_;
 }
 
+void LiveFeed::take_result(const std::string& payload) {
+  if (const auto result = wire::read<wire::SimulateResult>(payload)) search_.take(*result);
+}
+
 void LiveFeed::receive_until_moved(runtime::Bus& bus, const std::string& identity) {
   for (int turn = 1; !stopping_; ++turn) {
     bus.receive(kTurn_ms, [&](const runtime::Received& received) {
+      if (received.message.channel == "SIMULATED") return take_result(received.message.payload);
       const auto status = wire::decode_safe<node_status_t>(received.message.payload);
       if (!status) return;
       const std::lock_guard lock(mutex_);
@@ -59,6 +65,7 @@ void LiveFeed::listen() {
         const std::lock_guard lock(mutex_);
         problem_.clear();
       }
+      source_.recorded([this](const std::string& payload) { take_result(payload); });
       receive_until_moved(*bus, identity);
     } catch (const std::exception& error) {
       const std::lock_guard lock(mutex_);

@@ -10,6 +10,7 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
+#include "runtime/log_file.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/codec.hpp"
@@ -22,10 +23,27 @@ using dashboard::Delivery;
 
 constexpr double kPatience_s = 8.0;
 
+namespace {
+
+/// The results of the farm in a recording of the bus that may be growing.
+void read_results(const std::filesystem::path& log, const std::function<void(const std::string&)>& take) {
+  if (!std::filesystem::exists(log)) return;
+  runtime::LogReader reader(log);
+  while (const auto record = reader.next()) {
+    if (record->channel == "SIMULATED") take(record->data);
+  }
+}
+
+}  // namespace
+
 RunDesk::RunDesk(RunAccess run)
     : run_(std::move(run)),
-      feed_({.open = [this] { return listen(now(), {"STATUS"}); },
-             .identity = [this] { return std::to_string(now().manifest.port); }}) {}
+      feed_({.open =
+                 [this] {
+                   return listen(now(), {"STATUS", "SIMULATED"});
+                 },
+             .identity = [this] { return std::to_string(now().manifest.port); },
+             .recorded = [this](const auto& take) { read_results(run_.folder / "run.lcm", take); }}) {}
 
 RunAccess RunDesk::now() const {
   RunAccess run = run_;

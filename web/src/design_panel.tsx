@@ -315,7 +315,11 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
           The film shows one specimen, T {mpa(state.film.toughness)} MPa.
           {state.simulation?.source === "here" &&
             ` Simulated just now with the model of ${
-              typeof chosen.model === "number" ? `round ${chosen.model}` : `the family ${chosen.model}`
+              typeof chosen.model === "number"
+                ? `round ${chosen.model}`
+                : chosen.model === FIRST.model
+                  ? "the start of the game"
+                  : `the family ${chosen.model}`
             }, since the game kept no film of it.`}
         </p>
       )}
@@ -350,6 +354,27 @@ export function DesignPanel({
         children
       )}
     </section>
+  );
+}
+
+const FIRST: Chosen = {
+  design: "rigid",
+  model: "start",
+  modulus: NaN,
+  toughness: NaN,
+  of: "base material",
+};
+
+/** What a toughness test is, while there is nothing else to see break. */
+export function FirstFracture({ data }: { data: string | null }) {
+  return (
+    <>
+      <p class="quiet">
+        Until designs are proposed: the rigid base material with a notch, pulled until it separates. The toughness T is
+        the energy that this takes. Click a point of the gamut to see that pattern break.
+      </p>
+      <DesignBody chosen={FIRST} data={data} />
+    </>
   );
 }
 

@@ -4,7 +4,7 @@ import { useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
-import { DesignPanel, NewestProposals, showDesignPanel, type Chosen } from "./design_panel";
+import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel, type Chosen } from "./design_panel";
 import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
 import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
@@ -238,7 +238,8 @@ const LAYERS: Record<keyof Layers, { label: string; hint: string }> = {
 
 /** Why the chart of the gamut has no point. */
 function whyEmpty(rounds: Rounds, wanted: unknown[], visible: Gamut[]): string {
-  if (rounds.rounds.every((r) => r.gamut_count === 0)) return "The search for patterns has not begun yet.";
+  if (rounds.rounds.every((r) => r.gamut_count === 0))
+    return "No pattern has been simulated yet. Points appear here as the search goes on.";
   if (wanted.length === 0) return "No round is shown: choose one above.";
   return visible.length === 0 ? "reading the gamut …" : "Everything is switched off: choose what to show above.";
 }
@@ -265,15 +266,17 @@ function Toggles({
   };
   return (
     <div class="toggles">
-      <fieldset>
-        <legend>rounds</legend>
-        {rounds.rounds.map((r) => (
-          <label key={r.round} class="toggle" style={{ "--c": roundColour("sim", r.round, newest) } as never}>
-            <input type="checkbox" checked={shown.has(r.round)} onChange={() => flip(r.round)} />
-            <span>{r.round}</span>
-          </label>
-        ))}
-      </fieldset>
+      {rounds.rounds.length > 0 && (
+        <fieldset>
+          <legend>rounds</legend>
+          {rounds.rounds.map((r) => (
+            <label key={r.round} class="toggle" style={{ "--c": roundColour("sim", r.round, newest) } as never}>
+              <input type="checkbox" checked={shown.has(r.round)} onChange={() => flip(r.round)} />
+              <span>{r.round}</span>
+            </label>
+          ))}
+        </fieldset>
+      )}
       <fieldset>
         <legend>show</legend>
         {(Object.keys(layers) as (keyof Layers)[]).map((layer) => (
@@ -302,8 +305,10 @@ export function Game({
   rounds,
   data,
   theme,
+  playing,
 }: {
   rounds: Rounds;
+  playing: boolean;
   data: string | null;
   theme: "light" | "dark";
 }) {
@@ -333,12 +338,9 @@ export function Game({
     .map((r) => ({ name: String(r.round), count: r.gamut_count, which: { round: r.round } }));
   const { gamuts, problem } = useGamuts(wanted);
   const visible = [...shown].map((round) => gamuts.get(String(round))).filter((g): g is Gamut => g !== undefined);
-  if (rounds.rounds.length === 0)
-    return (
-      <p class="awaited wait">
-        This run has no results yet. The first model, gamut and proposals appear here by themselves.
-      </p>
-    );
+  const beginning = lastProposing(rounds) === null;
+  const newest = rounds.rounds.at(-1);
+  const searched = playing && newest && newest.gamut_count > 0 && newest.proposals.length === 0 ? newest : null;
   return (
     <>
       <div class="split">
@@ -351,6 +353,7 @@ export function Game({
             <p class="quiet">
               A point is a pattern: how stiff (E) and how tough (T). A staircase is a Pareto front: no other pattern is
               both stiffer and tougher.
+              {searched && ` The search goes on: ${searched.gamut_count} patterns so far.`}
             </p>
             <Problem text={problem} />
             <GamutChart
@@ -366,7 +369,11 @@ export function Game({
           <Trends rounds={rounds} theme={theme} />
         </div>
         <DesignPanel chosen={chosen} data={data}>
-          <NewestProposals round={lastProposing(rounds)} choose={setChosen} />
+          {beginning ? (
+            <FirstFracture data={data} />
+          ) : (
+            <NewestProposals round={lastProposing(rounds)} choose={setChosen} />
+          )}
         </DesignPanel>
       </div>
       <section class="panel">

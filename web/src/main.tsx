@@ -140,7 +140,7 @@ function Page() {
         {info.fidelity === "tiny" && (
           <p class="awaited">Tiny specimens, for trying things out: the numbers on this page mean nothing.</p>
         )}
-        {view === "game" && <Game rounds={rounds} data={data} theme={theme} />}
+        {view === "game" && <Game rounds={rounds} data={data} theme={theme} playing={playing} />}
         {view === "laboratory" && <LaboratoryView info={info} rounds={rounds} playing={playing} />}
         {view === "diagnosis" && <DiagnosisView rounds={rounds} />}
         {view === "families" && <FamiliesView rounds={rounds} data={data} theme={theme} run={info.run} />}

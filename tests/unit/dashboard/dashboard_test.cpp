@@ -377,5 +377,58 @@ TEST_F(DashboardOfARun, TheMapOfAGamutIsMadeOnDemand) {
   EXPECT_EQ(get("/api/map", {{"id", "gamut/x"}}).status, 400);
 }
 
+wire::SimulateResult searched(const std::string& request, std::vector<std::uint64_t> patterns) {
+  wire::SimulateResult result{.request_id = request, .chunk = 0, .chunks = 1, .first = 0, .results = {}};
+  for (const std::uint64_t bits : patterns) {
+    wire::SimulatedDesign simulated;
+    simulated.design = pattern::Pattern(bits);
+    simulated.modulus_pa = 1e9;
+    simulated.toughness_pa = 5e5;
+    result.results.push_back(simulated);
+  }
+  return result;
+}
+
+TEST_F(DashboardOfARun, AGamutFillsWhileItIsSearched) {
+  const std::string before = json("/api/live").at("data");
+  desk_.live.take(searched("proposal_agent/r8/s1/g1#0123", {5, 6}));
+  EXPECT_NE(json("/api/live").at("data"), before);
+  EXPECT_EQ(json("/api/rounds").at("rounds").back().at("gamut_count"), 2);
+  const std::string gamut = get("/api/gamut", {{"round", "8"}}).body;
+  EXPECT_THAT(gamut, HasSubstr(R"("round":8,"count":2)"));
+}
+
+TEST_F(DashboardOfARun, APublishedGamutStaysAsItIs) {
+  desk_.live.take(searched("proposal_agent/r7/s1/g1", {5, 6}));
+  EXPECT_THAT(get("/api/gamut", {{"round", "7"}}).body, HasSubstr(R"("round":7,"count":30)"));
+}
+
+TEST_F(DashboardOfARun, BaseMaterialsBreakBeforeThereIsAModel) {
+  const Response asked = post("/api/simulate", R"({"design": "rigid", "model": "start"})");
+  EXPECT_EQ(asked.status, 202) << asked.body;
+}
+
+TEST(LiveSearch, TakesEachPatternOnceAndOfTheNewestSearchAlone) {
+  LiveSearch search;
+  search.take(searched("proposal_agent/r1/s1/g1", {5, 6}));
+  search.take(searched("proposal_agent/r1/s1/g1", {6, 5}));
+  search.take(searched("proposal_agent/r1/redraw1/d0", {7}));
+  search.take(searched("analyser/r1/measured/0", {8}));
+  EXPECT_EQ(search.gamut(1).patterns, (std::vector<std::uint64_t>{5, 6}));
+  search.take(searched("proposal_agent/r2/s1/g1", {9}));
+  search.take(searched("proposal_agent/r1/s2/g1", {10}));
+  EXPECT_EQ(search.progress()->round, 2);
+  EXPECT_EQ(search.gamut(2).patterns, (std::vector<std::uint64_t>{9}));
+  EXPECT_TRUE(search.gamut(1).patterns.empty());
+}
+
+TEST(LiveSearch, LeavesDesignsWithoutANumberOut) {
+  LiveSearch search;
+  wire::SimulateResult result = searched("proposal_agent/r1/s1/g1", {5, 6});
+  result.results.front().failure = "no force";
+  search.take(result);
+  EXPECT_EQ(search.gamut(1).patterns, (std::vector<std::uint64_t>{6}));
+}
+
 }  // namespace
 }  // namespace nacre::dashboard

@@ -22,6 +22,8 @@ class FakeDesk : public Desk {
   }
   std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
+  std::optional<LiveSearch::Progress> search() override { return live.progress(); }
+  store::RecordedGamut searched(int round) override { return live.gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
   Delivery enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
   Delivery review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
@@ -36,6 +38,7 @@ class FakeDesk : public Desk {
   Laboratory picture;
   int models_read = 0;  ///< a real desk reads a journal each time
   std::vector<NodeReport> reports;
+  LiveSearch live;
   Delivery answer = Delivery::accepted;
   std::optional<std::string> reason_against;
   std::vector<std::string> doubts;

@@ -1,0 +1,47 @@
+#include "dashboard/live_search.hpp"
+
+#include <charconv>
+
+namespace nacre::dashboard {
+
+std::optional<int> round_of_search(std::string_view request_id) {
+  constexpr std::string_view kPrefix = "proposal_agent/r";
+  if (!request_id.starts_with(kPrefix)) return std::nullopt;
+  request_id.remove_prefix(kPrefix.size());
+  int round = 0;
+  const auto [end, fault] = std::from_chars(request_id.begin(), request_id.end(), round);
+  request_id.remove_prefix(end - request_id.begin());
+  if (fault != std::errc() || !request_id.starts_with("/s")) return std::nullopt;
+  return round;
+}
+
+void LiveSearch::take(const wire::SimulateResult& result) {
+  const auto round = round_of_search(result.request_id);
+  const std::lock_guard lock(mutex_);
+  if (!round || *round < round_) return;
+  if (*round > round_) {
+    round_ = *round;
+    known_.clear();
+    gamut_ = {};
+  }
+  for (const wire::SimulatedDesign& each : result.results) {
+    const pattern::Layout* layout = each.design.layout();
+    const auto pattern = layout != nullptr ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+    if (!each.failure.empty() || !pattern || !known_.insert(pattern->bits()).second) continue;
+    gamut_.patterns.push_back(pattern->bits());
+    gamut_.performances.push_back({each.modulus_pa, each.toughness_pa});
+  }
+}
+
+std::optional<LiveSearch::Progress> LiveSearch::progress() const {
+  const std::lock_guard lock(mutex_);
+  if (gamut_.patterns.empty()) return std::nullopt;
+  return Progress{round_, static_cast<int>(gamut_.patterns.size())};
+}
+
+store::RecordedGamut LiveSearch::gamut(int round) const {
+  const std::lock_guard lock(mutex_);
+  return round == round_ ? gamut_ : store::RecordedGamut{};
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,42 @@
+#pragma once
+// The patterns that a search has simulated so far: what a gamut will hold, before the proposal agent publishes it.
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "store/run_record.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::dashboard {
+
+/// Gathers the farm's results of the search of one round, the newest. Any number of threads.
+class LiveSearch {
+ public:
+  /// A SIMULATED, in any order and any number of times. Results of other requests than a search's, those of earlier
+  /// rounds and designs that gave no number are left out.
+  void take(const wire::SimulateResult& result);
+
+  struct Progress {
+    int round = 0;
+    int patterns = 0;
+  };
+  /// Nothing before the first result.
+  std::optional<Progress> progress() const;
+  /// The patterns of that round's search; empty for any other round.
+  store::RecordedGamut gamut(int round) const;
+
+ private:
+  mutable std::mutex mutex_;
+  int round_ = -1;
+  std::set<std::uint64_t> known_;
+  store::RecordedGamut gamut_;
+};
+
+/// The round of a request of the proposal agent's search (proposal_agent/rN/sK/...); nothing for other requests, such
+/// as those with perturbed constants.
+std::optional<int> round_of_search(std::string_view request_id);
+
+}  // namespace nacre::dashboard
