@@ -39,8 +39,8 @@ void run_expectation(const Options& options, const FloorPlan& plan, study::Study
       study::fill(table, wanted_specimens(plan, specimens), options.table.seconds, options.table.threads);
   const std::vector<DesignPair> designs = finished_designs(plan, specimens, table);
   fmt::print("{}, {}, strength_cv {}, {} designs, {} specimens on h/{}, {} on h/{}\n{}", options.fidelity,
-             options.criterion, specimens.strength_cv, designs.size(), specimens.coarse, specimens.refinement, specimens.fine,
-             2 * specimens.refinement, expectation_table(designs, options.table.seed));
+             options.criterion, specimens.strength_cv, designs.size(), specimens.coarse, specimens.refinement,
+             specimens.fine, 2 * specimens.refinement, expectation_table(designs, options.table.seed));
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
 }
 

@@ -39,9 +39,9 @@ void print_levels(const tester::Simulation& simulation) {
   for (const fem::SimdLevel level : {fem::SimdLevel::baseline, fem::SimdLevel::avx2, fem::SimdLevel::avx512}) {
     if (!fem::has_simd_level(level)) continue;
     const int steps = level == fem::SimdLevel::baseline ? 5 : 200;
-    fmt::print("{:9} {:13} {:9} {:.3g} element-steps/s single, {:.3g} double\n",
-               tester::to_string(simulation.fidelity), tester::to_string(simulation.criterion.kind),
-               fem::to_string(level), element_steps_per_s<float>(test, level, steps, 5),
+    fmt::print("{:9} {:13} {:9} {:.3g} element-steps/s single, {:.3g} double\n", tester::to_string(simulation.fidelity),
+               tester::to_string(simulation.criterion.kind), fem::to_string(level),
+               element_steps_per_s<float>(test, level, steps, 5),
                element_steps_per_s<double>(test, level, steps / 5, 3));
   }
 }

@@ -66,7 +66,9 @@ double longest_step_s(const Grid& grid, double density_kg_per_m3) {
 
 template <class Real>
 ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
-    : grid_(grid), settings_(settings), storage_(grid.columns, grid.rows, settings.keep_ledger, grid.neighbourhood_m > 0.0) {
+    : grid_(grid),
+      settings_(settings),
+      storage_(grid.columns, grid.rows, settings.keep_ledger, grid.neighbourhood_m > 0.0) {
   const SimdLevel level = settings.simd.value_or(best_simd_level());
   assert(has_simd_level(level));
   kernel_ = &explicit_kernel<Real>(level);

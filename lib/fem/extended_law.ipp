@@ -235,7 +235,8 @@ struct CrackBand {
     Pack<Real> left = load(s.integrity + element);
     Flags beyond;
     flag_unless_at_most(beyond, f.energy, load(s.onset + element));
-    if (any(beyond)) [[unlikely]] left = integrity<Real, true>(s, f.energy, element);
+    if (any(beyond)) [[unlikely]]
+      left = integrity<Real, true>(s, f.energy, element);
     for (Pack<Real>* force : {&f.bottom_x, &f.top_x, &f.bottom_y, &f.top_y}) *force *= left;
     for (Pack<Real>* force : {&f.left_x, &f.right_x, &f.left_y, &f.right_y}) *force *= left;
     return f;

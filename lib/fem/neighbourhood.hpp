@@ -1,7 +1,7 @@
 #pragma once
 // The neighbourhood criterion: an element fails where the mean of y = w / W over its neighbourhood reaches 1 and its
-// own y is at least that mean, so that a crack stays one element wide. Its length R makes fracture energy (some 4 R W)
-// and strength independent of the element size, as no threshold of single elements can.
+// own y is at least that mean (but for 1 %), so that a crack stays one element wide. Its length R makes fracture energy
+// (some 4 R W) and strength independent of the element size, as no threshold of single elements can.
 //
 //   y     mean energy density of an element over its W; 0 where it is empty, has failed or lies outside the grid
 //   mean  with weights (1 - |dx| / R)(1 - |dy| / R) where |dx|, |dy| < R, over the full sum of these weights

@@ -32,8 +32,8 @@ struct FailureCriterion {
 std::string criterion_fault(const FailureCriterion& criterion);
 
 /// Sets the criterion of a grid of refined elements whose thresholds are those of `element`. The effect
-/// `progressive_damage` is the total v of a crack band; an element that its neighbourhood fails softens by it. Tails are
-/// 1 + v(h) = (1 + v) h0 / h, where h0 is the size of unrefined elements. No change for `element`.
+/// `progressive_damage` is the total v of a crack band; an element that its neighbourhood fails softens by it. Tails
+/// are 1 + v(h) = (1 + v) h0 / h, where h0 is the size of unrefined elements. No change for `element`.
 void set_criterion(fem::Grid& grid, int refinement, const FailureCriterion& criterion);
 
 }  // namespace nacre::tester
