@@ -16,9 +16,17 @@ namespace {
 constexpr int kBootstraps = 2000;
 constexpr std::size_t kLeastDesigns = 3;  // of a parameter set in a bootstrap
 
-std::string specimen_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, double strength_cv,
-                         int specimen) {
-  return fmt::format("{} cv {} specimen {}", toughness_key(plan, layout, set, refinement), strength_cv, specimen);
+/// Empty for the thesis' criterion.
+std::string criterion_text(const tester::FailureCriterion& criterion) {
+  if (criterion.kind == tester::CriterionKind::element) return "";
+  const bool is_band = criterion.kind == tester::CriterionKind::crack_band;
+  return fmt::format(" {} {}", tester::to_string(criterion.kind), is_band ? criterion.softening : criterion.radius_m);
+}
+
+std::string specimen_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
+                         const SpecimenPlan& specimens, int specimen) {
+  return fmt::format("{} cv {}{} specimen {}", toughness_key(plan, layout, set, refinement), specimens.strength_cv,
+                     criterion_text(specimens.criterion), specimen);
 }
 
 /// T and peak stress of finished specimens, Pa.
@@ -26,11 +34,11 @@ struct Finished {
   std::vector<double> toughness_pa, peak_pa;
 };
 
-Finished finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, double strength_cv,
-                  int count, const study::StudyTable& table) {
+Finished finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
+                  const SpecimenPlan& specimens, int count, const study::StudyTable& table) {
   Finished result;
   for (int specimen = 0; specimen < count; ++specimen) {
-    const auto row = table.find(specimen_key(plan, layout, set, refinement, strength_cv, specimen));
+    const auto row = table.find(specimen_key(plan, layout, set, refinement, specimens, specimen));
     if (!row || (*row)[0] <= 0.0) break;
     result.toughness_pa.push_back((*row)[0]);
     result.peak_pa.push_back((*row)[1]);
@@ -170,9 +178,9 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
           if (specimen >= (fine ? specimens.fine : specimens.coarse)) continue;
           const int refinement = specimens.refinement * (fine ? 2 : 1);
           const std::size_t set = (i + pass) % plan.sets.size();
-          const std::string key = specimen_key(plan, i, set, refinement, specimens.strength_cv, specimen);
+          const std::string key = specimen_key(plan, i, set, refinement, specimens, specimen);
           wanted.push_back(wanted_fracture_test(key, plan, i, set, {.refinement = refinement, .specimen = specimen},
-                                                specimens.strength_cv));
+                                                specimens.strength_cv, specimens.criterion));
         }
   return wanted;
 }
@@ -181,7 +189,7 @@ std::vector<DesignPair> finished_designs(const FloorPlan& plan, const SpecimenPl
                                          const study::StudyTable& table) {
   std::vector<DesignPair> designs;
   const auto values = [&](std::size_t layout, std::size_t set, bool fine) {
-    return finished(plan, layout, set, specimens.refinement * (fine ? 2 : 1), specimens.strength_cv,
+    return finished(plan, layout, set, specimens.refinement * (fine ? 2 : 1), specimens,
                     fine ? specimens.fine : specimens.coarse, table);
   };
   for (std::size_t i = 0; i < plan.layouts.size(); ++i)

@@ -21,6 +21,7 @@ struct Options : FloorOptions {
   int sets_per_layout = 5;
   std::string output;
   SpecimenPlan specimens;
+  std::string criterion = "element";
 };
 
 /// Of means over specimens alone: the table for people, from what is finished.
@@ -30,12 +31,16 @@ void run_expectation(const Options& options, const FloorPlan& plan, study::Study
   if (!tester::is_strength_cv(specimens.strength_cv) || specimens.strength_cv == 0.0)
     throw InputError::format("--strength-cv {}: expected {} to {}", specimens.strength_cv, tester::kSmallestStrengthCv,
                              tester::kLargestStrengthCv);
+  const auto criterion = tester::criterion_from_string(options.criterion);
+  if (!criterion) throw InputError::format("--criterion: {}", criterion.error().message);
+  specimens.criterion.kind = *criterion;
+  if (const std::string fault = tester::criterion_fault(specimens.criterion); !fault.empty()) throw InputError(fault);
   const int missing =
       study::fill(table, wanted_specimens(plan, specimens), options.table.seconds, options.table.threads);
   const std::vector<DesignPair> designs = finished_designs(plan, specimens, table);
-  fmt::print("{}, strength_cv {}, {} designs, {} specimens on h/{}, {} on h/{}\n{}", options.fidelity,
-             specimens.strength_cv, designs.size(), specimens.coarse, specimens.refinement, specimens.fine,
-             2 * specimens.refinement, expectation_table(designs, options.table.seed));
+  fmt::print("{}, {}, strength_cv {}, {} designs, {} specimens on h/{}, {} on h/{}\n{}", options.fidelity,
+             options.criterion, specimens.strength_cv, designs.size(), specimens.coarse, specimens.refinement,
+             specimens.fine, 2 * specimens.refinement, expectation_table(designs, options.table.seed));
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
 }
 
@@ -69,6 +74,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000));
   app.add_option("--strength-cv", options.specimens.strength_cv, "Variation of W between their regions")
       ->capture_default_str();
+  app.add_option("--criterion", options.criterion, "element, neighbourhood or crack_band")->capture_default_str();
+  app.add_option("--radius", options.specimens.criterion.radius_m, "Of the neighbourhood, m")->capture_default_str();
+  app.add_option("--softening", options.specimens.criterion.softening, "v0 of the crack band")->capture_default_str();
   app.add_option("--refine", options.specimens.refinement, "The coarser mesh has elements of h / so many")
       ->check(CLI::Range(1, 4));
   app.add_option("--out", options.output, "TOML file to write, from what is finished");

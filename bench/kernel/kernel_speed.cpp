@@ -39,8 +39,9 @@ void print_levels(const tester::Simulation& simulation) {
   for (const fem::SimdLevel level : {fem::SimdLevel::baseline, fem::SimdLevel::avx2, fem::SimdLevel::avx512}) {
     if (!fem::has_simd_level(level)) continue;
     const int steps = level == fem::SimdLevel::baseline ? 5 : 200;
-    fmt::print("{:9} {:9} {:.3g} element-steps/s single, {:.3g} double\n", tester::to_string(simulation.fidelity),
-               fem::to_string(level), element_steps_per_s<float>(test, level, steps, 5),
+    fmt::print("{:9} {:13} {:9} {:.3g} element-steps/s single, {:.3g} double\n", tester::to_string(simulation.fidelity),
+               tester::to_string(simulation.criterion.kind), fem::to_string(level),
+               element_steps_per_s<float>(test, level, steps, 5),
                element_steps_per_s<double>(test, level, steps / 5, 3));
   }
 }
@@ -58,6 +59,13 @@ void print_specimen(tester::Simulation simulation, const std::string& name) {
              result->peak_stress_pa * 1e-6, result->failure_strain, tester::to_string(result->end));
 }
 
+void pull_designs(tester::Simulation simulation, const std::vector<std::string>& designs) {
+  for (const std::string& design : designs) {
+    simulation.design = pattern::design_from_argument(design);
+    print_specimen(simulation, fmt::format("{} {}", tester::to_string(simulation.criterion.kind), design));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,9 +73,11 @@ int main(int argc, char** argv) {
   std::vector<std::string> designs;
   std::vector<std::string> fidelities = {"tiny", "preview", "full"};
   std::string parameters;
+  std::vector<std::string> criteria = {"element"};
   bool levels = false;
   app.add_option("designs", designs, "designs to pull to separation: keys, files, soft, rigid, mix:F");
   app.add_option("--fidelity", fidelities, "fidelities");
+  app.add_option("--criterion", criteria, "element, neighbourhood, crack_band");
   app.add_option("--params", parameters, "parameter file");
   app.add_flag("--levels", levels, "compare the instruction sets");
   CLI11_PARSE(app, argc, argv);
@@ -76,10 +86,10 @@ int main(int argc, char** argv) {
   if (!parameters.empty()) simulation.parameters = material::read_parameters(parameters, simulation.parameters);
   for (const std::string& fidelity : fidelities) {
     simulation.fidelity = tester::fidelity_from_string(fidelity).value();
-    if (levels) print_levels(simulation);
-    for (const std::string& design : designs) {
-      simulation.design = pattern::design_from_argument(design);
-      print_specimen(simulation, design);
+    for (const std::string& criterion : criteria) {
+      simulation.criterion.kind = tester::criterion_from_string(criterion).value();
+      if (levels) print_levels(simulation);
+      pull_designs(simulation, designs);
     }
   }
 }

@@ -84,12 +84,12 @@ NACRE_INLINE void logarithm(Pack<Real> x, Pack<Real>& log, Pack<Real>& inverse) 
   if constexpr (Reduce) log = fma(exponent, broadcast(Real(kLn2)), log);
 }
 
-/// t at the four quadrature points, and twice the largest energy density among them:
+/// t at the four quadrature points, and twice the largest energy density among them, or their mean:
 /// 2 W = mu ((A - D)^2 + (B + C)^2 + 2 (x - l)) + lambda l^2. Here and below 2 u is u + u: the adders have room.
-template <class Real, bool Reduce>
+template <class Real, bool Reduce, bool Mean>
 NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (&change)[2][2], Pack<Real> mu,
                                      Pack<Real> lambda, Pack<Real> (&t)[2][2]) {
-  Pack<Real> largest{};
+  Pack<Real> largest{}, sums[2]{};
   for (int i = 0; i < 2; ++i) {
     for (int k = 0; k < 2; ++k) {
       const Pack<Real> x = Reduce ? larger(change[i][k], broadcast(Real(kSmallestChange))) : change[i][k];
@@ -101,22 +101,27 @@ NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (
       const Pack<Real> isochoric = fma(shear, shear, difference * difference);
       const Pack<Real> rest = x - log;
       const Pack<Real> energy = fma(mu, (rest + rest) + isochoric, pressure * log);
-      largest = larger(energy, largest);  // a NaN does not pass; first_inverted() finds it
+      if constexpr (Mean) {
+        sums[k] += energy;
+      } else {
+        largest = larger(energy, largest);  // a NaN does not pass; first_inverted() finds it
+      }
     }
   }
+  if constexpr (Mean) return broadcast(Real(0.25)) * (sums[0] + sums[1]);
   return largest;
 }
 
 /// Energy density of a pack of elements and the forces along its four edges.
 template <class Real>
 struct EdgeForces {
-  Pack<Real> energy;  ///< twice the largest energy density at the quadrature points
+  Pack<Real> energy;  ///< twice the largest energy density at the quadrature points, or twice their mean
   Pack<Real> bottom_x, top_x, bottom_y, top_y;
   Pack<Real> left_x, right_x, left_y, right_y;
 };
 
 /// `meanwhile` is independent work: four logarithms at a time leave half of the core idle.
-template <class Real, class Meanwhile>
+template <class Real, bool Mean, class Meanwhile>
 NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node, int element,
                                           const Meanwhile& meanwhile) {
   const Pack<Real> one = broadcast(Real{1});
@@ -131,8 +136,8 @@ NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node
   flag_unless_at_most(far, most, broadcast(Real(kNearChange)));
   EdgeForces<Real> f;
   meanwhile();
-  f.energy = any(far) ? constitutive<Real, true>(g, change, mu, lambda, t)
-                      : constitutive<Real, false>(g, change, mu, lambda, t);
+  f.energy = any(far) ? constitutive<Real, true, Mean>(g, change, mu, lambda, t)
+                      : constitutive<Real, false, Mean>(g, change, mu, lambda, t);
 
   const Pack<Real> sum_a = g.a[0] + g.a[1], sum_b = g.b[0] + g.b[1], sum_c = g.c[0] + g.c[1], sum_d = g.d[0] + g.d[1];
   const Pack<Real> stretch_x[2] = {one + g.a[0], one + g.a[1]}, stretch_y[2] = {one + g.d[0], one + g.d[1]};
@@ -157,6 +162,19 @@ struct NeoHookean {
   using State = ExplicitState<Real>;
   template <class Meanwhile>
   NACRE_INLINE static EdgeForces<Real> forces(const State& s, int node, int element, const Meanwhile& meanwhile) {
-    return edge_forces(s, node, element, meanwhile);
+    return edge_forces<Real, false>(s, node, element, meanwhile);
+  }
+};
+
+/// The same for the neighbourhood criterion, which averages the energy density of elements.
+template <class Number>
+struct NeoHookeanMean {
+  using Real = Number;
+  using State = ExplicitState<Real>;
+  template <class Meanwhile>
+  NACRE_INLINE static EdgeForces<Real> forces(const State& s, int node, int element, const Meanwhile& meanwhile) {
+    const EdgeForces<Real> f = edge_forces<Real, true>(s, node, element, meanwhile);
+    store(s.energy + element, f.energy);
+    return f;
   }
 };

@@ -66,7 +66,9 @@ double longest_step_s(const Grid& grid, double density_kg_per_m3) {
 
 template <class Real>
 ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
-    : grid_(grid), settings_(settings), storage_(grid.columns, grid.rows, settings.keep_ledger) {
+    : grid_(grid),
+      settings_(settings),
+      storage_(grid.columns, grid.rows, settings.keep_ledger, grid.neighbourhood_m > 0.0) {
   const SimdLevel level = settings.simd.value_or(best_simd_level());
   assert(has_simd_level(level));
   kernel_ = &explicit_kernel<Real>(level);
@@ -81,6 +83,7 @@ ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& s
     extended_ = std::make_unique<ExtendedStorage<Real>>(grid, element_scale(), settings.time_step_s, state_);
     extended_kernel_ = &extended_kernel<Real>(level);
   }
+  if (grid.neighbourhood_m > 0.0) neighbourhood_.emplace(grid.neighbourhood_m / grid.element_size_m, state_);
   if (settings.keep_ledger) {
     ledger_.initial_kinetic = kinetic_energy();
     ledger_.initial_stored = stored_energy();
@@ -105,7 +108,8 @@ Result<ExplicitSolver<Real>> ExplicitSolver<Real>::create(const Grid& grid, cons
     return fail(
         "alpha = gamma dt = {} is beyond {}, up to which the filter of Eq. 2.4 is stable: time step at most {} s",
         dt * settings.gamma_per_s, kLargestSmoothing, kLargestSmoothing / settings.gamma_per_s);
-  if (settings.keep_ledger && grid.laws.any()) return fail("no ledger of energies is kept with an extended law");
+  if (settings.keep_ledger && (grid.laws.any() || grid.neighbourhood_m > 0.0))
+    return fail("no ledger of energies is kept with an extended law or the neighbourhood criterion");
   return ExplicitSolver(grid, settings);
 }
 
@@ -118,7 +122,8 @@ double ExplicitSolver<Real>::element_scale() const {
 template <class Real>
 void ExplicitSolver<Real>::fill_elements() {
   const double scale = element_scale();
-  const double last = 1.0 + grid_.laws.softening;  // a softening element fails when s = sqrt(w / W) reaches it
+  // A softening element fails when s = sqrt(w / W) reaches this; the neighbourhood sets it when the tail begins.
+  const double last = grid_.neighbourhood_m > 0.0 ? 1.0 : 1.0 + grid_.laws.softening;
   std::fill_n(state_.threshold, static_cast<std::size_t>(grid_.rows) * state_.element_stride,
               std::numeric_limits<Real>::infinity());
   for (int row = 0; row < grid_.rows; ++row) {
@@ -139,16 +144,28 @@ double ExplicitSolver<Real>::stress_unit_pa() const {
   return settings_.density_kg_per_m3 * h * h / (dt * dt) / grid_.columns;
 }
 
+/// One step of the kernel that the grid needs.
 template <class Real>
-Result<StepReport> ExplicitSolver<Real>::step() {
-  state_.strain = static_cast<Real>(strain());
-  if (extended_) {
+void ExplicitSolver<Real>::advance() {
+  const bool only_softens = extended_ && !grid_.laws.any_beside_softening() && !neighbourhood_;
+  if (only_softens && grid_.laws.is_crack_band) {
+    extended_kernel_->advance_crack_band(state_);
+  } else if (extended_) {
     extended_kernel_->advance(state_);
+  } else if (neighbourhood_) {
+    kernel_->advance_with_energies(state_);
   } else if (settings_.keep_ledger) {
     kernel_->advance_with_ledger(state_);
   } else {
     kernel_->advance(state_);
   }
+  if (neighbourhood_) neighbourhood_->keep_failing(state_);
+}
+
+template <class Real>
+Result<StepReport> ExplicitSolver<Real>::step() {
+  state_.strain = static_cast<Real>(strain());
+  advance();
   const double h = grid_.element_size_m, dt = settings_.time_step_s;
   const StepReport report{.strain = strain(),
                           .top_stress_pa = state_.top_force * stress_unit_pa(),

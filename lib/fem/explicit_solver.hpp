@@ -14,6 +14,7 @@
 #include "fem/explicit_storage.hpp"
 #include "fem/extended_storage.hpp"
 #include "fem/grid.hpp"
+#include "fem/neighbourhood.hpp"
 #include "fem/simd_level.hpp"
 
 namespace nacre::fem {
@@ -68,9 +69,10 @@ struct EnergyLedger {
 template <class Real>
 class ExplicitSolver {
  public:
-  /// A grid with laws of its own (Grid::laws) goes through the extended kernel, without a ledger.
+  /// A grid with laws of its own (Grid::laws) or the neighbourhood criterion goes through other kernels, without a
+  /// ledger.
   /// Error: a time step beyond stability, alpha = gamma dt > 3/4 (Eq. 2.4), constants that are not usable, a ledger for
-  /// an extended law.
+  /// an extended law or a neighbourhood.
   static Result<ExplicitSolver> create(const Grid& grid, const ExplicitSettings& settings);
   ExplicitSolver(ExplicitSolver&&) noexcept;
   ~ExplicitSolver();
@@ -113,6 +115,7 @@ class ExplicitSolver {
   ExplicitSolver(const Grid& grid, const ExplicitSettings& settings);
   double element_scale() const;  ///< unit of the state's mu over Pa
   void fill_elements();
+  void advance();
   void erase_failed();
   tl::unexpected<Error> blow_up(int element) const;
   double kinetic_energy() const;
@@ -129,6 +132,7 @@ class ExplicitSolver {
   ExplicitStorage<Real> storage_;
   std::unique_ptr<ExtendedStorage<Real>> extended_;  ///< null without extended law
   const ExtendedKernel<Real>* extended_kernel_ = nullptr;
+  std::optional<Neighbourhood<Real>> neighbourhood_;  ///< of that criterion
   ExtendedState<Real> state_{};
   std::int64_t steps_ = 0;
   EnergyLedger ledger_;

@@ -11,6 +11,7 @@
 //   vx, vy       relative velocity, elements per step            (rows + 1) x stride
 //   mu, lambda   Lame parameters x dt^2 / (4 rho h^2), 0 if empty rows x element_stride
 //   threshold    2 W x dt^2 / (4 rho h^2), infinity if empty     rows x element_stride
+//   energy       2 x mean energy density, in that unit; or null  rows x element_stride
 // Rows of nodes are padded on both sides, rows of elements on the right, by zeros or empty elements to whole cache
 // lines.
 
@@ -51,6 +52,7 @@ struct ExplicitState {
   int element_stride;  ///< numbers per row of elements
   Real *qx, *qy, *vx, *vy;
   Real *mu, *lambda, *threshold;
+  Real* energy;  ///< only for the neighbourhood criterion
   ExplicitRows<Real> row;
   ExplicitLedgerRows<Real> ledger;  ///< null without a ledger
   Damping damping;
@@ -72,6 +74,8 @@ struct ExplicitKernel {
   void (*advance)(ExplicitState<Real>&);
   /// The same with damping_work accumulated.
   void (*advance_with_ledger)(ExplicitState<Real>&);
+  /// The same with the mean of an element's energy density kept, in place of the largest, and compared.
+  void (*advance_with_energies)(ExplicitState<Real>&);
   /// First element that is not empty and has J <= 0 or not a number at a quadrature point; -1 when there is none.
   int (*first_inverted)(const ExplicitState<Real>&);
   /// Forces of the elements on all nodes, -dW/dq, into vx and vy; the reactions. With mu and lambda of a quarter of

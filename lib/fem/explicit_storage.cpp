@@ -15,7 +15,7 @@ int padded(int count) { return (count + kRowPadding - 1) / kRowPadding * kRowPad
 }  // namespace
 
 template <class Real>
-ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
+ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger, bool with_energies)
     : failed_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
   ExplicitState<Real>& s = state_;
   s.columns = columns;
@@ -26,7 +26,7 @@ ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
   const std::size_t nodes = static_cast<std::size_t>(rows + 1) * row;
   const std::size_t elements = static_cast<std::size_t>(rows) * static_cast<std::size_t>(s.element_stride);
   const std::size_t fields = with_ledger ? 6 : 4, work_rows = kWorkRows + (with_ledger ? kLedgerRows : 0);
-  size_ = fields * (nodes + front) + 3 * elements + work_rows * (row + front);
+  size_ = fields * (nodes + front) + (with_energies ? 4 : 3) * elements + work_rows * (row + front);
   // Not by an aligned new: before glibc 2.38 every such block of a specimen leaves a hole that the next does not fill
   // (its bug 14581), a megabyte a fracture.
   memory_.resize(size_ + kAlignment / sizeof(Real));
@@ -35,6 +35,7 @@ ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
   block_ = static_cast<Real*>(std::align(kAlignment, size_ * sizeof(Real), start, space));
   for (Real** field : {&s.qx, &s.qy, &s.vx, &s.vy}) *field = take(nodes, front);
   for (Real** field : {&s.mu, &s.lambda, &s.threshold}) *field = take(elements, 0);
+  if (with_energies) s.energy = take(elements, 0);
   ExplicitRows<Real>& r = s.row;
   for (Real** field : {&r.upper_x, &r.upper_y, &r.below_x, &r.below_y, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
                        &r.sum_y[0], &r.sum_y[1], &r.sum_y[2], &r.weight})

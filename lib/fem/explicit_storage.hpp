@@ -14,7 +14,7 @@ namespace nacre::fem {
 template <class Real>
 class ExplicitStorage {
  public:
-  ExplicitStorage(int columns, int rows, bool with_ledger);
+  ExplicitStorage(int columns, int rows, bool with_ledger, bool with_energies = false);
   ExplicitStorage(ExplicitStorage&&) noexcept = default;
   ExplicitStorage& operator=(ExplicitStorage&&) noexcept = default;
 

@@ -6,7 +6,7 @@ namespace nacre::fem::NACRE_SIMD {
 
 template <class Real>
 constexpr ExplicitKernel<Real> kTable = {advance<NeoHookean<Real>, false>, advance<NeoHookean<Real>, true>,
-                                         first_inverted<Real>, internal_forces<NeoHookean<Real>>};
+                                         advance<NeoHookeanMean<Real>, false>, first_inverted<Real>, internal_forces<NeoHookean<Real>>};
 
 extern const ExplicitKernel<float> kSingle = kTable<float>;
 extern const ExplicitKernel<double> kDouble = kTable<double>;

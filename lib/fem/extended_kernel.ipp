@@ -10,6 +10,7 @@ namespace nacre::fem::NACRE_SIMD {
 
 template <class Real>
 constexpr ExtendedKernel<Real> kExtendedTable = {advance<Extended<Real, true>, false>,
+                                                 advance<CrackBand<Real>, false>,
                                                  internal_forces<Extended<Real, false>>};
 
 extern const ExtendedKernel<float> kExtendedSingle = kExtendedTable<float>;

@@ -200,7 +200,8 @@ struct Extended {
         ElasticPack<Real> e = elastic_state<Real>((g.a[k] - law.eigenstrain) * stretched, g.b[i] * stretched,
                                                   g.c[k] * stretched, (g.d[i] - law.eigenstrain) * stretched);
         SymmetricPack<Real> stress;
-        energy = larger(second_piola<Real, Commit>(s, law, e, element, 2 * k + i, stress), energy);
+        const Pack<Real> at_point = second_piola<Real, Commit>(s, law, e, element, 2 * k + i, stress);
+        energy = s.energy ? fma(broadcast(Real(0.25)), at_point, energy) : larger(at_point, energy);
         const Pack<Real> fx = one + g.a[k], fy = one + g.d[i];
         xx[k] += fma(fx, stress.xx, g.b[i] * stress.xy);
         xy[i] += fma(fx, stress.xy, g.b[i] * stress.yy);
@@ -211,12 +212,33 @@ struct Extended {
       const Pack<Real> left = integrity<Real, Commit>(s, energy, element);
       for (int m = 0; m < 2; ++m) xx[m] *= left, xy[m] *= left, yx[m] *= left, yy[m] *= left;
     }
+    if (s.energy) store(s.energy + element, energy);
     EdgeForces<Real> f;
     f.energy = energy;
     spread<Real>(xx[0], xx[1], f.bottom_x, f.top_x);
     spread<Real>(yx[0], yx[1], f.bottom_y, f.top_y);
     spread<Real>(xy[0], xy[1], f.left_x, f.right_x);
     spread<Real>(yy[0], yy[1], f.left_y, f.right_y);
+    return f;
+  }
+};
+
+/// The law of Eq. 2.1 with softening alone: a crack band. Few elements soften at a time, so most packs only compare.
+template <class Number>
+struct CrackBand {
+  using Real = Number;
+  using State = ExtendedState<Real>;
+
+  template <class Meanwhile>
+  NACRE_INLINE static EdgeForces<Real> forces(const State& s, int node, int element, const Meanwhile& meanwhile) {
+    EdgeForces<Real> f = edge_forces<Real, false>(s, node, element, meanwhile);
+    Pack<Real> left = load(s.integrity + element);
+    Flags beyond;
+    flag_unless_at_most(beyond, f.energy, load(s.onset + element));
+    if (any(beyond)) [[unlikely]]
+      left = integrity<Real, true>(s, f.energy, element);
+    for (Pack<Real>* force : {&f.bottom_x, &f.top_x, &f.bottom_y, &f.top_y}) *force *= left;
+    for (Pack<Real>* force : {&f.left_x, &f.right_x, &f.left_y, &f.right_y}) *force *= left;
     return f;
   }
 };

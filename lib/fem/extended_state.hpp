@@ -34,6 +34,8 @@ template <class Real>
 struct ExtendedKernel {
   /// One step; advances the history of every element.
   void (*advance)(ExtendedState<Real>&);
+  /// The same for softening without another law, by the arithmetic of ExplicitKernel.
+  void (*advance_crack_band)(ExtendedState<Real>&);
   /// Forces on all nodes, as ExplicitKernel::internal_forces; leaves the history alone.
   void (*internal_forces)(ExtendedState<Real>&);
 };

@@ -20,9 +20,12 @@ struct GridLaws {
   double relaxation_time_s = 0.0;  ///< in the time of the integrator
   double softening = 0.0;
   double tension_only = 0.0;
-  bool any() const {
+  /// The softening is a crack band's: without another law it goes through a faster kernel, whose rounding differs.
+  bool is_crack_band = false;
+  bool any() const { return softening != 0.0 || any_beside_softening(); }
+  bool any_beside_softening() const {
     return !eigenstrain.empty() || !inverse_limit.empty() || !yield_pa.empty() || overstress != 0.0 ||
-           softening != 0.0 || tension_only != 0.0;
+           tension_only != 0.0;
   }
 };
 
@@ -37,6 +40,7 @@ struct Grid {
   std::vector<double> poisson;             ///< nu of Eq. 2.3
   std::vector<double> threshold_j_per_m3;  ///< W at which an element fails; infinity in the modulus tester
   GridLaws laws = {};
+  double neighbourhood_m = 0.0;  ///< R of the neighbourhood criterion (neighbourhood.hpp); 0: each element by itself
   int index(int row, int column) const { return row * columns + column; }
   int element_count() const { return columns * rows; }
 };

@@ -13,6 +13,8 @@ PreparedTest::PreparedTest(const tester::FractureTest& test, const tester::Mount
       stress_unit_pa_(specimen.solver.stress_unit_pa()) {}
 
 Result<PreparedTest> PreparedTest::of(const tester::FractureTest& test) {
+  if (test.grid.neighbourhood_m > 0.0)
+    return fail("toughness tester: the neighbourhood criterion runs on processors alone, not on a device");
   const Result<tester::MountedSpecimen<float>> specimen = tester::mount<float>(test);
   if (!specimen) return fail("toughness tester: {}", specimen.error().message);
   return PreparedTest(test, *specimen);

@@ -98,6 +98,7 @@ FractureTest fracture_test(const Simulation& simulation, const Discretisation& d
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
                        units.x, units.y, discretisation.refinement);
+  set_criterion(test.grid, discretisation.refinement, simulation.criterion);
   draw_strengths(test.grid, discretisation.refinement, simulation, discretisation.specimen);
   const material::Extensions& extensions = simulation.parameters.extensions;
   scatter_strength(test.grid, discretisation.refinement, material::extension_value(extensions, "strength_scatter"),

@@ -5,6 +5,7 @@
 
 #include "material/parameters.hpp"
 #include "pattern/design.hpp"
+#include "tester/failure_criterion.hpp"
 #include "tester/names.hpp"
 
 namespace nacre::tester {
@@ -27,11 +28,13 @@ struct Simulation {
   /// Coefficient of variation of W between regions of half a pixel (strength_field.hpp): 0, the thesis' model, or 0.02
   /// to 0.4. A parameter of the fracture tester beside eta, which calibrations do not fit yet.
   double strength_cv = 0.0;
+  /// Of the fracture tester.
+  FailureCriterion criterion = {};
 };
 
 /// Numerical settings, for verification and for the sanity checks of a diagnosis. The defaults are the testers.
 struct Discretisation {
-  int refinement = 1;             ///< element size h / refinement, thresholds scaled by refinement
+  int refinement = 1;             ///< element size h / refinement
   double time_step_scale = 1.0;   ///< factor on the time step
   double rate_scale = 1.0;        ///< factor on the simulated strain rate (20 /s)
   int recording_scale = 1;        ///< factor on the number of recorded samples

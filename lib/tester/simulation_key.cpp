@@ -51,19 +51,30 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
   return text;
 }
 
+/// What a fracture test depends on beside the thesis' model; empty where it is that.
+std::string failure_text(const Simulation& simulation) {
+  std::string text;
+  if (simulation.strength_cv != 0.0) text += fmt::format("strength_cv {}\n", exact(simulation.strength_cv));
+  const FailureCriterion& criterion = simulation.criterion;
+  if (criterion.kind == CriterionKind::neighbourhood)
+    text += fmt::format("criterion neighbourhood {}\n", exact(criterion.radius_m));
+  if (criterion.kind == CriterionKind::crack_band)
+    text += fmt::format("criterion crack_band {}\n", exact(criterion.softening));
+  return text;
+}
+
 }  // namespace
 
 std::string simulation_key(const Simulation& simulation, TestKind kind) {
   // Cached results of a turned coupon may be those of its layout turned against the pull, as in earlier versions.
   const bool is_turned_coupon = simulation.conditions.orientation_deg == 90.0 && simulation.design.layout() &&
                                 !simulation.design.layout()->has_eightfold_symmetry();
-  const bool varies = kind == TestKind::toughness && simulation.strength_cv != 0.0;
   const std::string inputs =
       fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}{}",
                   kKernelVersion, to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
                   exact(simulation.conditions.orientation_deg), is_turned_coupon ? " with its layout" : "",
                   parameter_text(simulation.parameters, kind), model_text(simulation, kind),
-                  varies ? fmt::format("strength_cv {}\n", exact(simulation.strength_cv)) : "");
+                  kind == TestKind::toughness ? failure_text(simulation) : "");
   return content_hash(inputs);
 }
 

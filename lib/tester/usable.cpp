@@ -22,6 +22,8 @@ std::string simulation_fault(const Simulation& simulation, TestKind kind) {
   if (kind == TestKind::toughness && !is_strength_cv(simulation.strength_cv))
     return fmt::format("strength_cv {}, expected 0 or {} to {}", simulation.strength_cv, kSmallestStrengthCv,
                        kLargestStrengthCv);
+  if (const std::string fault = criterion_fault(simulation.criterion); kind == TestKind::toughness && !fault.empty())
+    return fault;
   // Only the parameters of the test that is run must be usable: a file may hold one table alone.
   material::ParameterSet needed = material::default_parameters();
   needed.extensions = simulation.parameters.extensions;

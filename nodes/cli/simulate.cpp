@@ -37,6 +37,7 @@ struct Options {
   int frame_count = film::kFrames;
   int film_width = 960;
   SpecimenChoice choice;
+  std::string criterion = "element";
   bool json = false;
 
   bool wants_films() const { return !frames.empty() || !film.empty(); }
@@ -78,7 +79,8 @@ tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options
           .parameters = tester::refined(parameters, options.choice.refine),
           .conditions = {},
           .fidelity = fidelity_from_option(options.fidelity),
-          .strength_cv = options.choice.strength_cv};
+          .strength_cv = options.choice.strength_cv,
+          .criterion = options.choice.criterion};
 }
 
 void pull_specimen(SimulatedDesign& simulated, const tester::Simulation& simulation, std::size_t specimen,
@@ -186,7 +188,9 @@ void check_output_options(const Options& options) {
   prepare_film_output(options.film);
 }
 
-int simulate(const Options& options) {
+int simulate(const Options& given) {
+  Options options = given;
+  options.choice.criterion.kind = *tester::criterion_from_string(options.criterion);
   std::vector<SimulatedDesign> designs = read_designs(options.patterns);
   const material::ParameterSet parameters = parameters_from_option(options.params, material::default_parameters());
   check_specimen_options(options, parameters);
@@ -221,6 +225,9 @@ void add_simulate(CLI::App& app, Action& action) {
   command
       .add_option("--strength-cv", options->choice.strength_cv,
                   "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4")
+      ->capture_default_str();
+  command.add_option("--criterion", options->criterion, "When elements fail in the toughness test")
+      ->check(CLI::IsMember({"element", "neighbourhood", "crack_band"}))
       ->capture_default_str();
   command.add_option("--refine", options->choice.refine, "Elements of 1/K, with the same specimens")
       ->check(CLI::Range(1, 8))

@@ -82,11 +82,17 @@ TEST_F(CommandLine, SimulateGivesTheMeanOverSpecimens) {
   EXPECT_NEAR(entry["toughness_se_pa"].get<double>(), std::sqrt(squares / 6.0), 1e-6 * sum_pa);
   EXPECT_GT(entry["toughness_se_pa"].get<double>(), 0.0);
   EXPECT_EQ(entry["specimens"], 3);
+  EXPECT_EQ(entry["criterion"], "element");
   EXPECT_TRUE(entry["crack"].is_null()) << "of refined elements";
   for (const char* file : {"many/577fffe9fffdef-0.csv", "many/577fffe9fffdef-2.csv"})
     EXPECT_TRUE(fs::exists(path(file))) << file;
 
-  EXPECT_FALSE(nlohmann::json::parse(with({"--json"}).out)[0].contains("toughness_se_pa"));
+  const auto plain = nlohmann::json::parse(with({"--json"}).out)[0];
+  EXPECT_FALSE(plain.contains("toughness_se_pa"));
+  const auto with_length = nlohmann::json::parse(with({"--criterion", "neighbourhood", "--json"}).out)[0];
+  EXPECT_EQ(with_length["criterion"], "neighbourhood");
+  EXPECT_NE(with_length["toughness_pa"], plain["toughness_pa"]);
+  expect_refused(with({"--criterion", "cohesive"}), {"--criterion", "neighbourhood"});
   EXPECT_THAT(with({"--specimens", "2"}).err, HasSubstr("all alike"));
   expect_refused(with({"--strength-cv", "0.5"}), {"--strength-cv", "0.02 to 0.4"});
   expect_refused(with({"--specimens", "0"}), {"--specimens"});
