@@ -11,9 +11,7 @@
 #include "dashboard/live_search.hpp"
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
-#include "material/parameters.hpp"
 #include "measurement/specimen_record.hpp"
-#include "nacre/diagnosis_t.hpp"
 #include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"
 
@@ -67,12 +65,6 @@ class Desk {
   virtual ~Desk() = default;
   /// May throw InputError, like all calls here.
   virtual Laboratory laboratory() = 0;
-  /// The model adopted in a round; nothing when none was.
-  virtual std::optional<material::ParameterSet> model(int round) = 0;
-  /// The own model of a family of the stage after the game; nothing when there is no such family.
-  virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
-  /// The analyser's newest diagnosis of a round.
-  virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
   /// Nodes that have reported within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.
@@ -80,7 +72,7 @@ class Desk {
   /// The search that is under way, or the last one; nothing before its first result.
   virtual std::optional<LiveSearch::Progress> search() = 0;
   /// What that search has simulated so far; empty for the rounds before.
-  virtual store::RecordedGamut searched(int round) = 0;
+  virtual run::Gamut searched(int round) = 0;
   // Entering: waits some seconds for the validation agent.
   virtual Delivery enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Delivery review(const SpecimenReview& review) = 0;

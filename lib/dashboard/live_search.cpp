@@ -39,9 +39,9 @@ std::optional<LiveSearch::Progress> LiveSearch::progress() const {
   return Progress{round_, static_cast<int>(gamut_.patterns.size())};
 }
 
-store::RecordedGamut LiveSearch::gamut(int round) const {
+run::Gamut LiveSearch::gamut(int round) const {
   const std::lock_guard lock(mutex_);
-  return round == round_ ? gamut_ : store::RecordedGamut{};
+  return round == round_ ? gamut_ : run::Gamut{};
 }
 
 }  // namespace nacre::dashboard

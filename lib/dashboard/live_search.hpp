@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {
@@ -26,13 +26,13 @@ class LiveSearch {
   /// Nothing before the first result.
   std::optional<Progress> progress() const;
   /// The patterns of that round's search; empty for any other round.
-  store::RecordedGamut gamut(int round) const;
+  run::Gamut gamut(int round) const;
 
  private:
   mutable std::mutex mutex_;
   int round_ = -1;
   std::set<std::uint64_t> known_;
-  store::RecordedGamut gamut_;
+  run::Gamut gamut_;
 };
 
 /// The round of a request of the proposal agent's search (proposal_agent/rN/sK/...); nothing for other requests, such

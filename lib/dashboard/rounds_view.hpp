@@ -1,14 +1,16 @@
 #pragma once
 // The game by rounds, as JSON.
 
-#include <map>
+#include <optional>
 
 #include "dashboard/json_parts.hpp"
-#include "store/run_record.hpp"
+#include "dashboard/live_search.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
-/// Per round: summary, errors, model, size of the gamut, proposals, measured front; and every measured pattern.
-Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes);
+/// Per round: summary, errors, model, size of the gamut, proposals, measured front; and every measured pattern. A round
+/// that is being searched has the size that its gamut has come to.
+Json rounds_json(const run::RunRecord& run, const std::optional<LiveSearch::Progress>& search);
 
 }  // namespace nacre::dashboard

@@ -4,7 +4,7 @@
 #include "report/report_standing.hpp"
 
 namespace nacre::report {
-Exhibit gamut_exhibit(const store::RunRecord& run) {
+Exhibit gamut_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "gamuts", .heading = "Simulation and measurements, round by round"};
   add_figures(exhibit, gamut_figures(run));
   if (exhibit.figures.empty()) {
@@ -20,7 +20,7 @@ Exhibit gamut_exhibit(const store::RunRecord& run) {
   return exhibit;
 }
 
-Exhibit round_exhibit(const store::RunRecord& run) {
+Exhibit round_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "rounds", .heading = "Hypervolume and gap"};
   add_figures(exhibit, round_figures(run));
   if (exhibit.figures.empty()) {
@@ -37,7 +37,7 @@ Exhibit round_exhibit(const store::RunRecord& run) {
   return exhibit;
 }
 
-Exhibit curve_exhibit(const store::RunRecord& run) {
+Exhibit curve_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "curves", .heading = "Stress-strain curves"};
   add_figures(exhibit, curve_figures(run));
   if (exhibit.figures.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// The types of the .lcm files as data. For schema.cpp.
+// The types of the .lcm files as data.
 
 #include <map>
 #include <string>

@@ -11,12 +11,9 @@ class RunDesk : public dashboard::Desk {
  public:
   explicit RunDesk(RunAccess run);
   dashboard::Laboratory laboratory() override;
-  std::optional<material::ParameterSet> model(int round) override;
-  std::optional<material::ParameterSet> family_model(const std::string& family) override;
-  std::optional<diagnosis_t> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   std::optional<dashboard::LiveSearch::Progress> search() override { return feed_.search().progress(); }
-  store::RecordedGamut searched(int round) override { return feed_.search().gamut(round); }
+  run::Gamut searched(int round) override { return feed_.search().gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
   dashboard::Delivery enter(const measurement::SpecimenRecord& specimen) override;
   dashboard::Delivery review(const dashboard::SpecimenReview& review) override;
