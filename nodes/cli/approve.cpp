@@ -222,7 +222,7 @@ void add_approve(CLI::App& app, Action& action) {
   command.add_flag("--add", options->add, "Add designs of your own, to be measured with the others");
   command.add_flag("--reject", options->reject, "Reject them");
   command.add_option("--why", options->why, "Reason; it is kept with the run");
-  command.add_option("--by", options->by, "Who decides")->capture_default_str();
+  command.add_option("--by", options->by, "Who decides")->default_str("your account");
   command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
