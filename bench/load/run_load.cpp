@@ -6,12 +6,39 @@
 #include "report/report.hpp"
 #include "run/run.hpp"
 #include "run/run_database.hpp"
+#include "runtime/log_file.hpp"
+#include "runtime/run_folder.hpp"
 #include "wire/convert.hpp"
+#include "wire/header.hpp"
 
 namespace nacre::load {
+namespace {
+
+runtime::RunFolder make_folder(const std::filesystem::path& logs) {
+  game::Scenario scenario;
+  scenario.fidelity = tester::Fidelity::preview;
+  scenario.base_materials_file = scenario.discretisation_floor_file = "";
+  return runtime::RunFolder::create(logs, "run", scenario);
+}
+
+/// The validation agent's journal with what it heard, for `nacre dashboard`, `designs` and `review`.
+void write_journal(const std::filesystem::path& folder, const std::vector<std::string>& measurements) {
+  std::filesystem::create_directories(folder);
+  runtime::LogWriter journal(folder / "journal.lcm");
+  std::int64_t number = 0;
+  for (const std::string& payload : measurements) {
+    const wire::Header header{.utime = ++number, .node = "load", .epoch = 1, .seq = number, .run_id = "run"};
+    (void)journal.append(number, "MEASUREMENT", wire::stamp_header("MEASUREMENT", payload, header));
+  }
+  (void)journal.flush();
+}
+
+}  // namespace
 
 void load_run(const Options& options) {
-  const std::filesystem::path file = options.folder / "run.db";
+  const runtime::RunFolder folder = make_folder(options.folder);
+  const std::filesystem::path file = folder.path() / "run.db";
+  std::vector<std::string> heard;
   RandomStream random(options.seed, "load/run");
   const auto gamut = made_up_gamut(options.gamut, random);
   const auto specimens = made_up_specimens(options.measurements, options.designs, random);
@@ -22,7 +49,9 @@ void load_run(const Options& options) {
       wire::Measurement measurement;
       measurement.round = 1 + static_cast<int>(i) % options.rounds;
       measurement.record = specimens[i];
-      measurements.time([&] { database.keep("MEASUREMENT", wire::write(measurement)); });
+      measurement.fidelity = tester::Fidelity::preview;
+      heard.push_back(wire::write(measurement));
+      measurements.time([&] { database.keep("MEASUREMENT", heard.back()); });
     }
     for (int round = 0; round <= options.rounds; ++round) {
       for (const wire::GamutChunk& chunk : wire::gamut_chunks(round, tester::Fidelity::preview, gamut))
@@ -32,10 +61,11 @@ void load_run(const Options& options) {
       database.keep("ROUND", wire::write(summary));
     }
   }
+  write_journal(folder.node_folder("validation_agent"), heard);
   measurements.print("run.db: keep a measurement");
   chunks.print("run.db: keep 1000 samples of a gamut");
   run::RunRecord record;
-  reading.time([&] { record = run::Run(options.folder).record_with_gamuts(); });
+  reading.time([&] { record = run::Run(folder.path()).record_with_gamuts(); });
   reading.print("run.db: read the run");
   std::string report;
   reporting.time([&] { report = report::render_report(record, "load"); });

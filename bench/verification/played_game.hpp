@@ -17,7 +17,7 @@ struct PlayedGame {
   std::vector<measurement::SpecimenRecord> specimens;
 };
 
-/// Reads a run's folder. Throws InputError when it holds no journal.
+/// Reads a run's folder. Throws InputError when its journal is damaged.
 PlayedGame read_game(const std::filesystem::path& run);
 
 }  // namespace nacre::verification

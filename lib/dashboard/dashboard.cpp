@@ -148,6 +148,7 @@ Response Dashboard::run(const Request&) {
                         {"rounds", s.rounds},
                         {"approval", s.validation.approval},
                         {"virtual_lab", s.laboratory.virtual_lab},
+                        {"diagnosis", s.diagnosis.enabled},
                         {"replicates", s.validation.replicates},
                         {"started", settings_.started},
                         {"nacre_version", settings_.nacre_version},

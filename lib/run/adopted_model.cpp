@@ -17,6 +17,12 @@ std::vector<optimize::Performance> line_as_measured(const RoundRecord& round) {
   return line;
 }
 
+std::optional<material::ParameterSet> newest_model(const RunRecord& run) {
+  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round)
+    if (round->second.model) return round->second.model->parameters;
+  return std::nullopt;
+}
+
 std::map<std::string, double> named_parameters(const material::ParameterSet& parameters) {
   std::map<std::string, double> named;
   const auto theta = to_vector(parameters.modulus);

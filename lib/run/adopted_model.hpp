@@ -2,6 +2,7 @@
 // The model of a round as its record has it.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ material::Extensions extensions_of(const RoundRecord& round);
 /// The homogeneous line of a round as recorded by the testing machine, like everything measured (the model holds what
 /// simulations are compared with: the line without the machine effects of the model).
 std::vector<optimize::Performance> line_as_measured(const RoundRecord& round);
+
+/// The model of the newest round that has one.
+std::optional<material::ParameterSet> newest_model(const RunRecord& run);
 
 /// `modulus.NAME`, `toughness.NAME`, `extension.NAME` (`extension.NAME.INDEX` of several values) -> value.
 std::map<std::string, double> named_parameters(const material::ParameterSet& parameters);

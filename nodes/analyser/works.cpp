@@ -21,7 +21,6 @@ std::string store_spec(const std::string& channel, const std::string& payload) {
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
   const std::shared_ptr<run::RunDatabase> database =
       run::open_run_database(run_dir, [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); });
-  const auto reader = std::make_shared<run::Run>(run_dir);
   return {
       {"store",
        [database](const std::string& spec) -> std::string {
@@ -32,10 +31,10 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
        }},
       {"diagnose", diagnose_work},
       {"report",
-       [database, reader, run_dir](const std::string& round) -> std::string {
+       [database, run_dir](const std::string& round) -> std::string {
          database->checkpoint();
-         write_file_atomically(run_dir / "report.html",
-                               report::render_report(reader->record_with_gamuts(), run_dir.filename().string()));
+         write_file_atomically(run_dir / "report.html", report::render_report(run::Run(run_dir).record_with_gamuts(),
+                                                                              run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);
        }},
   };

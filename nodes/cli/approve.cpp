@@ -14,6 +14,7 @@
 #include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
 #include "output.hpp"
+#include "run/journal_messages.hpp"
 #include "run_access.hpp"
 #include "wire/codec.hpp"
 #include "wire/convert.hpp"
@@ -35,7 +36,7 @@ struct ApproveOptions {
 /// The designs of the family stage, once it has chosen them; decided on under the round that they are ordered in.
 std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
   std::map<int, wire::CalibratedFamily> families;
-  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
+  for (const std::string& payload : run::sent_by(run.folder, "validation_agent", "FAMILY"))
     if (auto family = wire::read<wire::CalibratedFamily>(payload)) families[family->number] = std::move(*family);
   if (families.empty() || static_cast<int>(families.size()) < families.begin()->second.count) return std::nullopt;
   wire::Proposal proposal;
@@ -100,7 +101,7 @@ std::map<std::string, game::DesignStage> stages_in(const game::LaboratoryFacts& 
 /// The round that is played; nothing when the game is over.
 std::optional<int> round_played(const RunAccess& run) {
   int played = 0;
-  for (const std::string& payload : sent_by_validation_agent(run, "ROUND")) {
+  for (const std::string& payload : run::sent_by(run.folder, "validation_agent", "ROUND")) {
     const auto round = wire::read<wire::RoundSummary>(payload);
     if (!round) continue;
     if (round->last) return std::nullopt;
@@ -221,7 +222,7 @@ void add_approve(CLI::App& app, Action& action) {
   command.add_flag("--add", options->add, "Add designs of your own, to be measured with the others");
   command.add_flag("--reject", options->reject, "Reject them");
   command.add_option("--why", options->why, "Reason; it is kept with the run");
-  command.add_option("--by", options->by, "Who decides")->capture_default_str();
+  command.add_option("--by", options->by, "Who decides")->default_str("your account");
   command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();

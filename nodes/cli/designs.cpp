@@ -89,7 +89,7 @@ void add_printed(CLI::App& app, Action& action) {
                                   options, mark_printed);
   command.add_option("JOB", options->job, "Folder of the print job")->required();
   add_run_option(command, options->run);
-  command.add_option("--by", options->by, "Who printed it")->capture_default_str();
+  command.add_option("--by", options->by, "Who printed it")->default_str("your account");
 }
 
 }  // namespace nacre::cli

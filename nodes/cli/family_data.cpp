@@ -5,6 +5,7 @@
 #include "game/standings.hpp"
 #include "laboratory_view.hpp"
 #include "output.hpp"
+#include "run/journal_messages.hpp"
 #include "run_access.hpp"
 #include "wire/codec.hpp"
 
@@ -33,7 +34,8 @@ std::vector<StagedFamily> staged_families(const RunAccess& run) {
     auto& variants = families[chunk->number].variants;
     variants.insert(variants.end(), chunk->samples.begin(), chunk->samples.end());
   };
-  read_validation_agent(run, {}, {{"FAMILY", take_family}, {"FAMILY_GAMUT", take_variants}});
+  run::JournalMessages(run.folder, "validation_agent")
+      .read({}, {{"FAMILY", take_family}, {"FAMILY_GAMUT", take_variants}});
   std::vector<StagedFamily> all;
   for (auto& [number, family] : families) all.push_back(std::move(family));
   return all;

@@ -97,16 +97,18 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
 
 }  // namespace
 
-LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(const std::string& payload)>& measured) {
-  LaboratoryView view;
-  game::LaboratoryFacts& facts = view.facts;
-  facts.replicates = run.scenario.validation.replicates;
-  facts.enough_valid = run.scenario.validation.enough_valid;
-  std::map<int, wire::Proposal> proposals;
-  int last_round = -1;
+LaboratoryReader::LaboratoryReader(RunAccess run) : run_(std::move(run)), journal_(run_.folder, "validation_agent") {}
+
+void LaboratoryReader::read_journal(const std::function<void(const std::string& payload)>& measured) {
+  if (journal_.begins_anew()) {
+    known_ = {};
+    proposals_.clear();
+    last_round_ = -1;
+  }
+  game::LaboratoryFacts& facts = known_.facts;
   const auto take_proposal = [&](const wire::Proposal& proposal) {
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
-    proposals[proposal.round] = proposal;
+    proposals_[proposal.round] = proposal;
   };
   const auto take_family = [&](const wire::CalibratedFamily& family) {
     for (const game::FamilyDesign& design : family.designs)
@@ -114,36 +116,47 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
   };
   const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
   const auto take_measurement = [&](const wire::Measurement& one) {
-    if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
+    if (one.fidelity == run_.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
-  const auto take_model = [&](const wire::AdoptedModel& model) { view.model = model.parameters; };
+  const auto take_model = [&](const wire::AdoptedModel& model) { known_.model = model.parameters; };
   const auto take_round = [&](const wire::RoundSummary& round) {
-    last_round = std::max(last_round, round.round);
-    view.is_over = view.is_over || round.last;
+    last_round_ = std::max(last_round_, round.round);
+    known_.is_over = known_.is_over || round.last;
   };
-  read_validation_agent(run,
-                        {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
-                         {"MEASUREMENT",
-                          [&](const std::string& payload) {
-                            each<wire::Measurement>(take_measurement)(payload);
-                            if (measured) measured(payload);
-                          }},
-                         {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
-                         {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
-                        {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
-                         {"FAMILY", each<wire::CalibratedFamily>(take_family)},
-                         {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
-                         {"ROUND", each<wire::RoundSummary>(take_round)}});
+  journal_.read({{"PROPOSAL", each<wire::Proposal>(take_proposal)},
+                 {"MEASUREMENT",
+                  [&](const std::string& payload) {
+                    each<wire::Measurement>(take_measurement)(payload);
+                    if (measured) measured(payload);
+                  }},
+                 {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
+                 {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
+                {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
+                 {"FAMILY", each<wire::CalibratedFamily>(take_family)},
+                 {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
+                 {"ROUND", each<wire::RoundSummary>(take_round)}});
+}
+
+LaboratoryView LaboratoryReader::view(const std::function<void(const std::string& payload)>& measured) {
+  read_journal(measured);
+  LaboratoryView view = known_;
+  game::LaboratoryFacts& facts = view.facts;
+  facts.replicates = run_.scenario.validation.replicates;
+  facts.enough_valid = run_.scenario.validation.enough_valid;
   // Later ones may be there: an agent that begins anew without its journal is offered all of them again.
-  if (const auto later = proposals.upper_bound(last_round); later != proposals.begin())
+  if (const auto later = proposals_.upper_bound(last_round_); later != proposals_.begin())
     view.open_proposal = std::prev(later)->second;
-  for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
+  for (const auto& [specimen, by] : read_printed(run_)) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);
   for (std::size_t i = 0; i < facts.orders.size(); ++i) {
     view.orders.push_back({facts.orders[i], printed[i], progress[i].arrived, progress[i].valid, progress[i].complete});
   }
   return view;
+}
+
+LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(const std::string& payload)>& measured) {
+  return LaboratoryReader(run).view(measured);
 }
 
 int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by) {

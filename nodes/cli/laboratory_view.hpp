@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "game/design_states.hpp"
+#include "run/journal_messages.hpp"
 #include "run_access.hpp"
 #include "wire/convert.hpp"
 
@@ -30,8 +32,24 @@ struct LaboratoryView {
   bool is_over = false;                         ///< the last round is closed, and with it the family stage
 };
 
-/// `measured` is handed the payload of every MEASUREMENT, too. Throws InputError when the record of what was printed
-/// cannot be read.
+/// A run whose laboratory is looked at again and again: only what was added to the journal is read.
+class LaboratoryReader {
+ public:
+  explicit LaboratoryReader(RunAccess run);
+  /// `measured` is handed the payload of every MEASUREMENT that is read, too. Throws InputError when the record of what
+  /// was printed cannot be read.
+  LaboratoryView view(const std::function<void(const std::string& payload)>& measured = {});
+
+ private:
+  void read_journal(const std::function<void(const std::string& payload)>& measured);
+  RunAccess run_;
+  run::JournalMessages journal_;
+  LaboratoryView known_;  ///< what the journal says, without settings, orders' progress and what was printed
+  std::map<int, wire::Proposal> proposals_;
+  int last_round_ = -1;
+};
+
+/// The laboratory looked at once.
 LaboratoryView view_laboratory(const RunAccess& run,
                                const std::function<void(const std::string& payload)>& measured = {});
 

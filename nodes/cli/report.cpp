@@ -11,6 +11,7 @@
 #include "output_path.hpp"
 #include "report/paper.hpp"
 #include "report/report.hpp"
+#include "run/adopted_model.hpp"
 #include "run/run.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
@@ -39,9 +40,10 @@ int report(const Options& options) {
     remark("data/thesis was not found, neither beside the program nor here: the thesis' figures are left out");
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
   prepare_output_folder(folder.string());
-  report::write_paper(folder, report::read_paper_source(run.folder, run.manifest.run_id,
-                                                        std::filesystem::exists(thesis) ? thesis : ""));
-  if (const auto model = adopted_parameters(run))
+  const report::PaperSource source =
+      report::read_paper_source(run.folder, run.manifest.run_id, std::filesystem::exists(thesis) ? thesis : "");
+  report::write_paper(folder, source);
+  if (const auto model = run::newest_model(source.run))
     write_file_atomically(folder / "parameters.toml", material::to_toml(*model));
   remark("pages written: the report of the game (report.html), the figures and tables of the thesis (index.html)");
   if (std::filesystem::exists(page)) fmt::print("{}\n", page.string());

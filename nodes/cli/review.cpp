@@ -317,7 +317,7 @@ void add_review(CLI::App& app, Action& action) {
   command.add_flag("--invalid", options->invalid, "The specimen does not count");
   command.add_flag("--accept", options->accept, "Declare all specimens that look out of line not valid");
   command.add_option("--why", options->why, "Reason; it is kept with the run or the set");
-  command.add_option("--by", options->by, "Who says so")->capture_default_str();
+  command.add_option("--by", options->by, "Who says so")->default_str("your account");
   command.add_option("--revision", options->revision, "Number of the review; default: one more than the last")
       ->check(CLI::Range(1, 1'000'000'000));
   command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")

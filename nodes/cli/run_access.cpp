@@ -9,8 +9,6 @@
 
 #include "base/result.hpp"
 #include "output.hpp"
-#include "wire/convert.hpp"
-#include "wire/header.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -78,49 +76,6 @@ void say_unanswered(const std::set<std::string>& nodes, double timeout_s) {
       fmt::format("{} did not answer within {} s: does the run play? (nacre status) Type the same again: repeating it "
                   "is safe, and a node may wait for the message",
                   fmt::join(nodes, ", "), timeout_s));
-}
-
-void read_journal(const RunAccess& run, const std::string& node, const Takers& received, const Takers& sent) {
-  const auto journal = run.folder / "nodes" / node / "journal.lcm";
-  if (!std::filesystem::exists(journal)) return;
-  runtime::LogReader reader(journal);
-  while (const auto record = reader.next()) {
-    std::string_view channel = record->channel;
-    if (channel.starts_with(runtime::kOutPrefix)) {
-      channel.remove_prefix(runtime::kOutPrefix.size());
-      if (const auto taker = sent.find(channel); taker != sent.end()) taker->second(record->data);
-    } else if (const auto taker = received.find(channel); taker != received.end()) {
-      if (const auto blanked = wire::blank_header(channel, record->data)) taker->second(blanked->payload);
-    }
-  }
-}
-
-void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent) {
-  read_journal(run, "validation_agent", received, sent);
-}
-
-std::vector<std::string> received_by(const RunAccess& run, const std::string& node, const std::string& channel) {
-  std::vector<std::string> payloads;
-  read_journal(run, node, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}}, {});
-  return payloads;
-}
-
-std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
-  return received_by(run, "validation_agent", channel);
-}
-
-std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel) {
-  std::vector<std::string> payloads;
-  read_validation_agent(run, {}, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}});
-  return payloads;
-}
-
-std::optional<material::ParameterSet> adopted_parameters(const RunAccess& run) {
-  const std::vector<std::string> sent = sent_by_validation_agent(run, "PARAMETERS");
-  for (auto payload = sent.rbegin(); payload != sent.rend(); ++payload) {
-    if (const auto model = wire::read<wire::AdoptedModel>(*payload)) return model->parameters;
-  }
-  return std::nullopt;
 }
 
 }  // namespace nacre::cli

@@ -38,10 +38,8 @@ void read_results(const std::filesystem::path& log, const std::function<void(con
 
 RunDesk::RunDesk(RunAccess run)
     : run_(std::move(run)),
-      feed_({.open =
-                 [this] {
-                   return listen(now(), {"STATUS", "SIMULATED"});
-                 },
+      reader_(run_),
+      feed_({.open = [this] { return listen(now(), {"STATUS", "SIMULATED"}); },
              .identity = [this] { return std::to_string(now().manifest.port); },
              .recorded = [this](const auto& take) { read_results(run_.folder / "run.lcm", take); }}) {}
 
@@ -52,7 +50,7 @@ RunAccess RunDesk::now() const {
 }
 
 dashboard::Laboratory RunDesk::laboratory() {
-  LaboratoryView view = view_laboratory(run_);
+  LaboratoryView view = reader_.view();
   return {std::move(view.facts), std::move(view.open_proposal)};
 }
 
@@ -68,8 +66,7 @@ Delivery RunDesk::hand_in(const runtime::Message& message) {
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
   std::vector<std::string> doubts = measurement::doubts_about(specimen);
-  for (const std::string& doubt : cli::doubts_about(run_, view_laboratory(run_), {&specimen, 1}))
-    doubts.push_back(doubt);
+  for (const std::string& doubt : cli::doubts_about(run_, reader_.view(), {&specimen, 1})) doubts.push_back(doubt);
   return doubts;
 }
 
@@ -84,7 +81,7 @@ Delivery RunDesk::enter(const measurement::SpecimenRecord& specimen) {
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& review) {
-  const game::MeasurementBook book = view_laboratory(run_).facts.book;
+  const game::MeasurementBook book = reader_.view().facts.book;
   const auto specimens = book.specimens();
   if (std::none_of(specimens.begin(), specimens.end(),
                    [&](const auto& each) { return each.specimen == review.specimen; }))
@@ -105,8 +102,7 @@ Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
 std::optional<std::string> RunDesk::against(const dashboard::Approval& approval) {
   const Result<pattern::Design> design = pattern::design_from_name(approval.design);
   if (!design) return design.error().message;
-  return game::why_void(view_laboratory(run_).facts,
-                        {approval.round, *design, approval.approved, approval.by, approval.why},
+  return game::why_void(reader_.view().facts, {approval.round, *design, approval.approved, approval.by, approval.why},
                         run_.scenario.validation.approval);
 }
 

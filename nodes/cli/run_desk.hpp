@@ -3,6 +3,7 @@
 
 #include "dashboard/desk.hpp"
 #include "dashboard/live_feed.hpp"
+#include "laboratory_view.hpp"
 #include "run_access.hpp"
 
 namespace nacre::cli {
@@ -28,6 +29,7 @@ class RunDesk : public dashboard::Desk {
   /// The run on the port that it plays on now.
   RunAccess now() const;
   RunAccess run_;
+  LaboratoryReader reader_;
   dashboard::LiveFeed feed_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nacre/review_t.hpp"
+#include "run/journal_messages.hpp"
 #include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
@@ -88,13 +89,14 @@ void enter(std::map<std::string, std::string>& held, const std::string& payload,
 
 std::map<std::string, std::string> held_by_analyser(const RunAccess& run) {
   std::map<std::string, std::string> held;
-  for (const std::string& payload : received_by(run, "analyser", kChannel)) enter(held, payload, run.scenario.fidelity);
+  for (const std::string& payload : run::received_by(run.folder, "analyser", kChannel))
+    enter(held, payload, run.scenario.fidelity);
   return held;
 }
 
 HeldMeasurements held_measurements(const RunAccess& run) {
   HeldMeasurements held{.validation_agent = {}, .analyser = held_by_analyser(run)};
-  for (const std::string& payload : received_by_validation_agent(run, kChannel))
+  for (const std::string& payload : run::received_by(run.folder, "validation_agent", kChannel))
     enter(held.validation_agent, payload, run.scenario.fidelity);
   return held;
 }
@@ -128,7 +130,7 @@ std::map<std::string, int> highest_revisions(const RunAccess& run) {
   std::map<std::string, int> highest;
   // Either journal may be lost: the node that keeps the other holds the higher revision, and to it a lower one is old.
   for (const char* node : {"validation_agent", "analyser"})
-    for (const std::string& payload : received_by(run, node, "REVIEW")) {
+    for (const std::string& payload : run::received_by(run.folder, node, "REVIEW")) {
       const auto review = wire::decode_safe<review_t>(payload);
       if (review) highest[review->specimen] = std::max<int>(highest[review->specimen], review->revision);
     }

@@ -226,7 +226,8 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   for (const wire::ProposedDesign& next : second.designs) {
     EXPECT_NE(next.design, refused_.design) << "what was refused is not proposed again";
   }
-  for (const run::MeasuredSpecimen& kept : run::Run(person_->run()).record()->specimens) {
+  const auto record = run::Run(person_->run()).record();
+  for (const run::MeasuredSpecimen& kept : record->specimens) {
     EXPECT_EQ(kept.record.valid, kept.record.specimen != outlier_name) << kept.record.specimen;
   }
 }

@@ -7,6 +7,7 @@ export interface RunInfo {
   rounds: number;
   approval: boolean;
   virtual_lab: boolean;
+  diagnosis: boolean;
   replicates: number;
   started: string;
   nacre_version: string;

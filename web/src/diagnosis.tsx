@@ -260,14 +260,16 @@ function DiagnosisOf({ round, rounds, tabs }: { round: number; rounds: Rounds; t
   );
 }
 
-export function DiagnosisView({ rounds }: { rounds: Rounds }) {
+export function DiagnosisView({ rounds, isOn }: { rounds: Rounds; isOn: boolean }) {
   const diagnosed = rounds.rounds.filter((r) => r.verdict).map((r) => r.round);
   const [picked, setPicked] = useState<number | null>(null);
   const round = picked ?? diagnosed.at(-1);
   if (round === undefined)
     return (
       <p class="awaited wait">
-        There is no diagnosis yet: the first one follows the first measurements of proposed designs.
+        {isOn
+          ? "There is no diagnosis yet: the first one follows the first measurements of proposed designs."
+          : "The scenario turns the diagnosis off."}
       </p>
     );
   const tabs = (

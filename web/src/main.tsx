@@ -142,7 +142,7 @@ function Page() {
         )}
         {view === "game" && <Game rounds={rounds} data={data} theme={theme} playing={playing} />}
         {view === "laboratory" && <LaboratoryView info={info} rounds={rounds} playing={playing} />}
-        {view === "diagnosis" && <DiagnosisView rounds={rounds} />}
+        {view === "diagnosis" && <DiagnosisView rounds={rounds} isOn={info.diagnosis} />}
         {view === "families" && <FamiliesView rounds={rounds} data={data} theme={theme} run={info.run} />}
         {view === "explorer" && <Explorer rounds={rounds} data={data} theme={theme} />}
         {view === "nodes" && live && <NodesView live={live} />}
