@@ -7,7 +7,7 @@
 namespace nacre::dashboard {
 namespace {
 
-Json specimen_json(const store::MeasuredSpecimen& specimen) {
+Json specimen_json(const run::MeasuredSpecimen& specimen) {
   const measurement::SpecimenRecord& r = specimen.record;
   return {{"specimen", r.specimen},
           {"round", specimen.round},
@@ -22,7 +22,7 @@ Json specimen_json(const store::MeasuredSpecimen& specimen) {
           {"curve", curve_json(r.curve)}};
 }
 
-Json crack_json(const store::RecordedCrack& recorded) {
+Json crack_json(const wire::Fracture& recorded) {
   const crack::CrackRecord& c = recorded.crack;
   Json json = {{"film", !recorded.film.empty()},
                {"broken", recorded.broken},
@@ -38,28 +38,26 @@ Json crack_json(const store::RecordedCrack& recorded) {
   return json;
 }
 
-Json simulated_json(int round, const store::RecordedSimulation& s) {
+Json simulated_json(int round, const wire::SimulatedDesign& s) {
   Json json = {{"round", round}};
   if (!s.failure.empty()) return json["failure"] = s.failure, json;
   // 0: that test was not asked for.
-  json["modulus_pa"] = s.performance.modulus_pa > 0.0 ? Json(s.performance.modulus_pa) : Json(nullptr);
-  json["toughness_pa"] = s.performance.toughness_pa;
+  json["modulus_pa"] = s.modulus_pa > 0.0 ? Json(s.modulus_pa) : Json(nullptr);
+  json["toughness_pa"] = s.toughness_pa;
   json["curve"] = curve_json(s.curve);
   return json;
 }
 
 }  // namespace
 
-Json design_json(const store::RunRecord& run, const pattern::Design& design) {
+Json design_json(const run::RunRecord& run, const pattern::Design& design) {
   const std::string name = design.name();
   Json proposals = Json::array(), simulated = Json::array(), cracks = Json::array(), specimens = Json::array();
   for (const auto& [number, round] : run.rounds) {
     for (const auto& p : round.proposals) {
-      if (p.design == name)
-        proposals.push_back({{"round", number},
-                             {"modulus_pa", p.predicted.modulus_pa},
-                             {"toughness_pa", p.predicted.toughness_pa},
-                             {"reason", p.reason}});
+      if (p.design == design)
+        proposals.push_back(
+            {{"round", number}, {"modulus_pa", p.modulus_pa}, {"toughness_pa", p.toughness_pa}, {"reason", p.reason}});
     }
     if (const auto found = round.simulated.find(name); found != round.simulated.end())
       simulated.push_back(simulated_json(number, found->second));

@@ -3,11 +3,11 @@
 
 #include "dashboard/json_parts.hpp"
 #include "pattern/design.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
 /// All that a run knows of one design: proposals, specimens with curves, simulations, cracks.
-Json design_json(const store::RunRecord& run, const pattern::Design& design);
+Json design_json(const run::RunRecord& run, const pattern::Design& design);
 
 }  // namespace nacre::dashboard

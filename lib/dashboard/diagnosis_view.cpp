@@ -1,7 +1,7 @@
 #include "dashboard/diagnosis_view.hpp"
 
 #include "material/extensions.hpp"
-#include "store/misfit.hpp"
+#include "run/misfit.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -14,16 +14,16 @@ void explain(Json& effect, const std::string& name) {
   effect["explanation"] = known->explanation;
 }
 
-Json of_database(const store::RecordedDiagnosis& d) {
+Json of_message(const diagnosis_t& d) {
   Json effects = Json::array(), candidates = Json::array();
-  for (const auto& e : d.effects) {
+  for (const effect_t& e : run::named_effects(d)) {
     effects.push_back({{"name", e.name},
                        {"parameter", e.parameter},
                        {"interval90", {e.interval_low, e.interval_high}},
                        {"unit", e.unit}});
     explain(effects.back(), e.name);
   }
-  for (const auto& c : d.candidates) {
+  for (const candidate_t& c : d.candidates) {
     candidates.push_back({{"name", c.name},
                           {"status", c.status},
                           {"statistic", c.statistic},
@@ -32,8 +32,11 @@ Json of_database(const store::RecordedDiagnosis& d) {
     explain(candidates.back(), c.name);
   }
   Json gain = nullptr;
-  if (d.held_out_error_before && d.held_out_error_after)
-    gain = {{"held_out_error_before", *d.held_out_error_before}, {"held_out_error_after", *d.held_out_error_after}};
+  if (d.has_gain)
+    gain = {{"held_out_error_before", d.held_out_error_before},
+            {"held_out_error_after", d.held_out_error_after},
+            {"relative_reduction", d.relative_reduction},
+            {"interval90", {d.reduction_low, d.reduction_high}}};
   return {
       {"verdict", d.verdict}, {"summary", d.summary}, {"effects", effects}, {"candidates", candidates}, {"gain", gain}};
 }
@@ -56,17 +59,14 @@ Json next_experiments(const diagnosis_t& message) {
 
 }  // namespace
 
-Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t>& message, int round) {
+Json diagnosis_json(const run::RunRecord& run, int round) {
   const auto found = run.rounds.find(round);
   if (found == run.rounds.end() || !found->second.diagnosis) return nullptr;
-  Json json = of_database(*found->second.diagnosis);
+  const diagnosis_t& diagnosis = *found->second.diagnosis;
+  Json json = of_message(diagnosis);
   json["round"] = round;
-  json["against"] = store::misfit_beside_verdict(found->second);
-  json["next_experiments"] = message ? next_experiments(*message) : Json::array();
-  if (message && message->has_gain && json["gain"].is_object()) {
-    json["gain"]["relative_reduction"] = message->relative_reduction;
-    json["gain"]["interval90"] = {message->reduction_low, message->reduction_high};
-  }
+  json["against"] = run::misfit_beside_verdict(found->second);
+  json["next_experiments"] = next_experiments(diagnosis);
   return json;
 }
 

@@ -1,15 +1,12 @@
 #pragma once
 // The diagnosis of a round, as JSON.
 
-#include <optional>
-
 #include "dashboard/json_parts.hpp"
-#include "nacre/diagnosis_t.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
-/// The verdict of a round: from the message where there is one, else from the database; null when there is neither.
-Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t>& message, int round);
+/// Null where the round has none.
+Json diagnosis_json(const run::RunRecord& run, int round);
 
 }  // namespace nacre::dashboard

@@ -1,7 +1,8 @@
 #include "dashboard/families_view.hpp"
 
 #include "game/family_errors.hpp"
-#include "store/measured_patterns.hpp"
+#include "run/adopted_model.hpp"
+#include "run/measured_patterns.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -10,7 +11,7 @@ Json values_json(const game::DesignValues& values) {
   return {{"modulus_pa", json_or_null(values.modulus_pa)}, {"toughness_pa", json_or_null(values.toughness_pa)}};
 }
 
-Json design_json(const game::FamilyDesign& design, const store::RecordedFamily& family) {
+Json design_json(const game::FamilyDesign& design, const run::FamilyRecord& family) {
   const std::string key = design.pattern.key();
   const auto crack = family.cracks.find(key);
   return {{"design", key},
@@ -22,12 +23,12 @@ Json design_json(const game::FamilyDesign& design, const store::RecordedFamily& 
           {"film", crack != family.cracks.end() && !crack->second.film.empty()}};
 }
 
-Json stage_json(const store::RecordedFamily& family) {
+Json stage_json(const run::FamilyRecord& family) {
   const wire::CalibratedFamily& stated = family.stated;
   const game::FamilyErrors errors = game::family_errors(stated.designs);
   Json designs = Json::array(), over_fits = Json::array(), parameters = Json::object();
   for (const game::FamilyDesign& design : stated.designs) designs.push_back(design_json(design, family));
-  for (const auto& [name, value] : family.parameters) parameters[name] = value;
+  for (const auto& [name, value] : run::named_parameters(stated.parameters)) parameters[name] = value;
   if (errors.over_fits_modulus()) over_fits.push_back("E");
   if (errors.over_fits_toughness()) over_fits.push_back("T");
   return {
@@ -37,7 +38,7 @@ Json stage_json(const store::RecordedFamily& family) {
       {"is_validated", stated.is_validated},
       {"simulations", stated.simulations},
       {"samples", stated.samples},
-      {"gamut_count", family.gamut.size()},
+      {"gamut_count", family.gamut_count},
       {"designs", designs},
       {"errors",
        {{"seeds", {{"global", errors_json(errors.seeds_global)}, {"family", errors_json(errors.seeds_family)}}},
@@ -48,16 +49,16 @@ Json stage_json(const store::RecordedFamily& family) {
 
 }  // namespace
 
-std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run) {
+std::vector<families::MeasuredPattern> measured_members(const run::RunRecord& run) {
   std::vector<families::MeasuredPattern> members;
-  for (const auto& each : store::measured_patterns(run, store::newest_round(run).value_or(0)))
+  for (const auto& each : run::measured_patterns(run, run::newest_round(run).value_or(0)))
     members.push_back({each.pattern, each.mean});
   return members;
 }
 
-Json families_json(const store::RunRecord& run, const Grouping& grouping) {
+Json families_json(const run::RunRecord& run, const Grouping& grouping) {
   Json stage = Json::array(), groups = Json::array(), near = Json::array();
-  for (const store::RecordedFamily& family : run.families) stage.push_back(stage_json(family));
+  for (const run::FamilyRecord& family : run.families) stage.push_back(stage_json(family));
   for (const families::SeedFamily& group : grouping.families) {
     Json seeds = Json::array();
     for (const pattern::Pattern& seed : group.seeds) seeds.push_back(seed.key());
@@ -67,15 +68,6 @@ Json families_json(const store::RunRecord& run, const Grouping& grouping) {
   return {{"stage", stage},
           {"grouping",
            {{"from", grouping.from}, {"problem", grouping.problem}, {"families", groups}, {"near_pareto", near}}}};
-}
-
-store::RecordedGamut gamut_of_family(const store::RecordedFamily& family) {
-  store::RecordedGamut gamut;
-  for (const explore::Evaluated& each : family.gamut) {
-    gamut.patterns.push_back(each.pattern.bits());
-    gamut.performances.push_back(each.performance);
-  }
-  return gamut;
 }
 
 }  // namespace nacre::dashboard

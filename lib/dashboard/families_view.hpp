@@ -6,7 +6,7 @@
 
 #include "dashboard/json_parts.hpp"
 #include "families/grouping.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
@@ -19,13 +19,10 @@ struct Grouping {
 };
 
 /// The patterns that the run has measured in both tests.
-std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run);
+std::vector<families::MeasuredPattern> measured_members(const run::RunRecord& run);
 
 /// Families of the stage after the game with designs, errors of both models and whether they over-fit; and the
 /// grouping.
-Json families_json(const store::RunRecord& run, const Grouping& grouping);
-
-/// A family's variants as gamut_bytes() takes them.
-store::RecordedGamut gamut_of_family(const store::RecordedFamily& family);
+Json families_json(const run::RunRecord& run, const Grouping& grouping);
 
 }  // namespace nacre::dashboard

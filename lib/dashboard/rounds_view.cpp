@@ -1,9 +1,7 @@
 #include "dashboard/rounds_view.hpp"
 
-#include <set>
-
-#include "store/adopted_model.hpp"
-#include "store/measured_patterns.hpp"
+#include "run/adopted_model.hpp"
+#include "run/measured_patterns.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -34,20 +32,20 @@ Json summary_json(const wire::RoundSummary& s) {
           {"decided_by", s.decided_by}};
 }
 
-Json proposal_json(const store::RecordedProposal& proposal) {
-  return {{"design", proposal.design},
-          {"modulus_pa", proposal.predicted.modulus_pa},
-          {"toughness_pa", proposal.predicted.toughness_pa},
+Json proposal_json(const wire::ProposedDesign& proposal) {
+  return {{"design", proposal.design.name()},
+          {"modulus_pa", proposal.modulus_pa},
+          {"toughness_pa", proposal.toughness_pa},
           {"reason", proposal.reason}};
 }
 
-std::vector<optimize::Performance> means(const std::vector<store::MeasuredPattern>& patterns) {
+std::vector<optimize::Performance> means(const std::vector<run::MeasuredPattern>& patterns) {
   std::vector<optimize::Performance> points;
   for (const auto& each : patterns) points.push_back(each.mean);
   return points;
 }
 
-Json measured_json(const store::MeasuredPattern& m) {
+Json measured_json(const run::MeasuredPattern& m) {
   return {{"design", m.pattern.key()},
           {"round", m.round},
           {"rigid_fraction", m.pattern.rigid_fraction()},
@@ -61,31 +59,25 @@ Json measured_json(const store::MeasuredPattern& m) {
 
 }  // namespace
 
-Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes) {
-  const auto gamut_size = [&](int round) { return gamut_sizes.contains(round) ? gamut_sizes.at(round) : 0; };
+Json rounds_json(const run::RunRecord& run) {
   Json rounds = Json::array();
-  std::set<int> numbers;
-  for (const auto& [number, round] : run.rounds) numbers.insert(number);
-  for (const auto& [number, size] : gamut_sizes) numbers.insert(number);
-  static const store::RoundRecord kUnknown;
-  for (const int number : numbers) {
-    const auto known = run.rounds.find(number);
-    const store::RoundRecord& round = known == run.rounds.end() ? kUnknown : known->second;
+  for (const auto& [number, round] : run.rounds) {
     Json proposals = Json::array(), parameters = Json::object();
     for (const auto& proposal : round.proposals) proposals.push_back(proposal_json(proposal));
-    for (const auto& [name, value] : round.parameters) parameters[name] = value;
+    if (round.model)
+      for (const auto& [name, value] : run::named_parameters(round.model->parameters)) parameters[name] = value;
     rounds.push_back(
         {{"round", number},
          {"summary", round.summary ? summary_json(*round.summary) : Json(nullptr)},
-         {"gamut_count", gamut_size(number)},
-         {"measured_front", points_json(optimize::pareto_front(means(store::measured_patterns(run, number))))},
-         {"benchmark", points_json(store::line_as_measured(round))},
+         {"gamut_count", round.gamut_count},
+         {"measured_front", points_json(optimize::pareto_front(means(run::measured_patterns(run, number))))},
+         {"benchmark", points_json(run::line_as_measured(round))},
          {"proposals", proposals},
          {"parameters", parameters},
          {"verdict", round.diagnosis ? Json(round.diagnosis->verdict) : Json(nullptr)}});
   }
   Json measured = Json::array();
-  for (const auto& pattern : store::measured_patterns(run, store::newest_round(run).value_or(0)))
+  for (const auto& pattern : run::measured_patterns(run, run::newest_round(run).value_or(0)))
     measured.push_back(measured_json(pattern));
   return {{"rounds", rounds}, {"measured", measured}};
 }

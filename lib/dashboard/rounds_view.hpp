@@ -1,14 +1,12 @@
 #pragma once
 // The game by rounds, as JSON.
 
-#include <map>
-
 #include "dashboard/json_parts.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
 /// Per round: summary, errors, model, size of the gamut, proposals, measured front; and every measured pattern.
-Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes);
+Json rounds_json(const run::RunRecord& run);
 
 }  // namespace nacre::dashboard

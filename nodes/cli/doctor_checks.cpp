@@ -18,11 +18,11 @@
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "nacre/node_status_t.hpp"
+#include "run/run_schema.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/process.hpp"
 #include "runtime/version.hpp"
 #include "store/database_care.hpp"
-#include "store/run_schema.hpp"
 #include "store/simulation_cache.hpp"
 #include "wire/codec.hpp"
 
@@ -215,10 +215,10 @@ Finding check_run(const fs::path& run) {
   const std::string remedy = "nacre rebuild --run " + shell_word(run);
   if (const auto fault = fault_of(check, file, remedy)) return *fault;
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion) return {check, CheckStatus::good, file.string() + " is whole"};
+  if (version == run::kRunSchemaVersion) return {check, CheckStatus::good, file.string() + " is whole"};
   return {
       check, CheckStatus::remark,
-      fmt::format("{} has schema version {}, this program writes {}", file.string(), version, store::kRunSchemaVersion),
+      fmt::format("{} has schema version {}, this program writes {}", file.string(), version, run::kRunSchemaVersion),
       remedy};
 }
 
