@@ -12,8 +12,6 @@
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
 #include "measurement/specimen_record.hpp"
-#include "nacre/diagnosis_t.hpp"
-#include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {
@@ -51,7 +49,7 @@ struct Laboratory {
 /// The last STATUS of a node.
 struct NodeReport {
   std::string node;
-  node_status_t status{};
+  wire::NodeStatus status;
   double age_s = 0.0;  ///< since it came
 };
 
@@ -71,7 +69,7 @@ class Desk {
   /// The own model of a family of the stage after the game; nothing when there is no such family.
   virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
   /// The analyser's newest diagnosis of a round.
-  virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
+  virtual std::optional<wire::Diagnosis> diagnosis(int round) = 0;
   /// Nodes that have reported within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.

@@ -38,17 +38,16 @@ Json of_database(const store::RecordedDiagnosis& d) {
       {"verdict", d.verdict}, {"summary", d.summary}, {"effects", effects}, {"candidates", candidates}, {"gain", gain}};
 }
 
-Json next_experiments(const diagnosis_t& message) {
+Json next_experiments(const wire::Diagnosis& message) {
   Json experiments = Json::array();
-  for (const next_experiment_t& e : message.next_experiments) {
-    const auto test = wire::test_kind_from_wire(e.test);
-    experiments.push_back({{"design", e.design},
-                           {"test", test ? tester::to_string(*test) : "?"},
+  for (const wire::NextExperiment& e : message.next_experiments) {
+    experiments.push_back({{"design", e.design.name()},
+                           {"test", tester::to_string(e.test)},
                            {"orientation_deg", e.conditions.orientation_deg},
                            {"strain_rate_per_s", e.conditions.strain_rate_per_s},
                            {"thickness_mm", e.conditions.thickness_mm},
                            {"replicates", e.replicates},
-                           {"loading", e.loading},
+                           {"loading", tester::to_string(e.loading)},
                            {"reason", e.reason}});
   }
   return experiments;
@@ -56,16 +55,16 @@ Json next_experiments(const diagnosis_t& message) {
 
 }  // namespace
 
-Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t>& message, int round) {
+Json diagnosis_json(const store::RunRecord& run, const std::optional<wire::Diagnosis>& message, int round) {
   const auto found = run.rounds.find(round);
   if (found == run.rounds.end() || !found->second.diagnosis) return nullptr;
   Json json = of_database(*found->second.diagnosis);
   json["round"] = round;
   json["against"] = store::misfit_beside_verdict(found->second);
   json["next_experiments"] = message ? next_experiments(*message) : Json::array();
-  if (message && message->has_gain && json["gain"].is_object()) {
-    json["gain"]["relative_reduction"] = message->relative_reduction;
-    json["gain"]["interval90"] = {message->reduction_low, message->reduction_high};
+  if (message && message->gain && json["gain"].is_object()) {
+    json["gain"]["relative_reduction"] = message->gain->relative_reduction;
+    json["gain"]["interval90"] = {message->gain->reduction_low, message->gain->reduction_high};
   }
   return json;
 }

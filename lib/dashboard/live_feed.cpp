@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "base/result.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -41,7 +41,7 @@ std::string LiveFeed::problem() const {
 void LiveFeed::receive_until_moved(runtime::Bus& bus, const std::string& identity) {
   for (int turn = 1; !stopping_; ++turn) {
     bus.receive(kTurn_ms, [&](const runtime::Received& received) {
-      const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+      const auto status = wire::read<wire::NodeStatus>(received.message.payload);
       if (!status) return;
       const std::lock_guard lock(mutex_);
       heard_[received.header.node] = {*status, runtime::steady_us()};

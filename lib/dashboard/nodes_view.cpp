@@ -1,6 +1,6 @@
 #include "dashboard/nodes_view.hpp"
 
-#include "wire/status_json.hpp"
+#include "wire/field_json.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -20,7 +20,7 @@ std::string_view state_of(const NodeReport& report, bool is_over) {
 Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over) {
   Json array = Json::array();
   for (const NodeReport& report : nodes) {
-    const node_status_t& s = report.status;
+    const wire::NodeStatus& s = report.status;
     Json node = {{"node", report.node},
                  {"state", state_of(report, is_over)},
                  {"age_s", report.age_s},
@@ -28,7 +28,8 @@ Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over) {
                  {"round", s.round},
                  {"progress", s.progress < 0.0 ? Json(nullptr) : Json(s.progress)},
                  {"eta_s", s.eta_s < 0.0 ? Json(nullptr) : Json(s.eta_s)}};
-    wire::append_counters(node, s);
+    wire::FieldJson counters(node);
+    wire::NodeStatus::counters(counters, s);
     array.push_back(std::move(node));
   }
   return array;

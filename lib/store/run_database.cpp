@@ -143,7 +143,7 @@ void keep(SQLite::Database& db, const wire::Measurement& m) {
       packed(r.curve));
 }
 
-void keep(SQLite::Database& db, const review_t& r) {
+void keep(SQLite::Database& db, const wire::Review& r) {
   // Of two with one revision "not valid" stands, whichever came first.
   run(db,
       "INSERT INTO review VALUES (?1,?2,?3,?4,?5) ON CONFLICT (specimen, revision) DO UPDATE SET "
@@ -151,17 +151,20 @@ void keep(SQLite::Database& db, const review_t& r) {
       r.specimen, r.revision, r.valid != 0, r.by, r.why);
 }
 
-void keep(SQLite::Database& db, const diagnosis_t& d) {
-  const auto when_gained = [&](double value) { return d.has_gain ? std::optional<double>(value) : std::nullopt; };
+void keep(SQLite::Database& db, const wire::Diagnosis& d) {
+  const auto when_gained = [&](double wire::DiagnosedGain::*value) {
+    return d.gain ? std::optional<double>(*d.gain.*value) : std::nullopt;
+  };
   run(db, "INSERT OR REPLACE INTO diagnosis VALUES (?,?,?,?,?,?)", d.round, d.verdict, d.summary,
-      when_gained(d.held_out_error_before), when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
+      when_gained(&wire::DiagnosedGain::held_out_error_before), when_gained(&wire::DiagnosedGain::held_out_error_after),
+      when_gained(&wire::DiagnosedGain::relative_reduction));
   std::set<std::string> named;
-  for (const effect_t& e : d.effects) {
+  for (const wire::DiagnosedEffect& e : d.effects) {
     if (!named.insert(e.name).second) continue;  // a further parameter of the effect
     run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter,
         e.interval_low, e.interval_high, e.unit);
   }
-  for (const candidate_t& c : d.candidates) {
+  for (const wire::DiagnosedCandidate& c : d.candidates) {
     run(db, "INSERT OR REPLACE INTO diagnosis_candidate VALUES (?,?,?,?,?,?)", d.round, c.name, c.status, c.statistic,
         c.p_family_wise, c.absorption);
   }
@@ -231,12 +234,6 @@ void keep_domain(SQLite::Database& db, const std::string& payload) {
   if (const auto value = wire::read<Domain>(payload)) keep(db, *value);
 }
 
-template <class Message>
-void keep_message(SQLite::Database& db, const std::string& payload) {
-  const auto message = wire::decode_safe<Message>(payload);
-  if (message && wire::validate(*message)) keep(db, *message);
-}
-
 void keep_payload(SQLite::Database& db, const std::string& channel, const std::string& payload) {
   if (channel == "ROUND") keep_domain<wire::RoundSummary>(db, payload);
   if (channel == "PARAMETERS") keep_domain<wire::AdoptedModel>(db, payload);
@@ -247,8 +244,8 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
   if (channel == "FAMILY") keep_domain<wire::CalibratedFamily>(db, payload);
   if (channel == "FAMILY_GAMUT") keep_domain<wire::FamilyGamut>(db, payload);
-  if (channel == "REVIEW") keep_message<review_t>(db, payload);
-  if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);
+  if (channel == "REVIEW") keep_domain<wire::Review>(db, payload);
+  if (channel == "DIAGNOSIS") keep_domain<wire::Diagnosis>(db, payload);
 }
 
 }  // namespace

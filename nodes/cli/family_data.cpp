@@ -6,7 +6,7 @@
 #include "laboratory_view.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::cli {
 namespace {

@@ -7,12 +7,9 @@
 #include "families/families_file.hpp"
 #include "laboratory_view.hpp"
 #include "measurement/specimen_checks.hpp"
-#include "nacre/approval_t.hpp"
-#include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
 
@@ -61,10 +58,10 @@ void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vect
   write_file_atomically(folder / "families.toml", families::to_toml(families));
 }
 
-std::optional<diagnosis_t> RunDesk::diagnosis(int round) {
-  std::optional<diagnosis_t> newest;
+std::optional<wire::Diagnosis> RunDesk::diagnosis(int round) {
+  std::optional<wire::Diagnosis> newest;
   for (const std::string& payload : received_by_validation_agent(run_, "DIAGNOSIS")) {
-    auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
+    auto diagnosis = wire::read<wire::Diagnosis>(payload);
     if (diagnosis && diagnosis->round == round) newest = std::move(*diagnosis);
   }
   return newest;
@@ -102,13 +99,13 @@ std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& rev
 }
 
 Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
-  review_t message{};
+  wire::Review message;
   message.specimen = review.specimen;
   message.revision = highest_revisions(run_)[review.specimen] + 1;
   message.valid = review.valid;
   message.by = review.by;
   message.why = review.why;
-  return hand_in({"REVIEW", wire::encode(message)});
+  return hand_in({"REVIEW", wire::write(message)});
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::Approval& approval) {
@@ -120,13 +117,13 @@ std::optional<std::string> RunDesk::against(const dashboard::Approval& approval)
 }
 
 Delivery RunDesk::decide(const dashboard::Approval& approval) {
-  approval_t message{};
+  wire::Approval message;
   message.round = approval.round;
-  message.design = approval.design;
+  message.design = expected(pattern::design_from_name(approval.design));  // against() has read it
   message.approved = approval.approved;
   message.by = approval.by;
   message.why = approval.why;
-  return hand_in({"APPROVAL", wire::encode(message)});
+  return hand_in({"APPROVAL", wire::write(message)});
 }
 
 }  // namespace nacre::cli

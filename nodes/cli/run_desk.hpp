@@ -13,7 +13,7 @@ class RunDesk : public dashboard::Desk {
   dashboard::Laboratory laboratory() override;
   std::optional<material::ParameterSet> model(int round) override;
   std::optional<material::ParameterSet> family_model(const std::string& family) override;
-  std::optional<diagnosis_t> diagnosis(int round) override;
+  std::optional<wire::Diagnosis> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
   dashboard::Delivery enter(const measurement::SpecimenRecord& specimen) override;

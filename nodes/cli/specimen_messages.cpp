@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "nacre/review_t.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
 
@@ -129,7 +127,7 @@ std::map<std::string, int> highest_revisions(const RunAccess& run) {
   // Either journal may be lost: the node that keeps the other holds the higher revision, and to it a lower one is old.
   for (const char* node : {"validation_agent", "analyser"})
     for (const std::string& payload : received_by(run, node, "REVIEW")) {
-      const auto review = wire::decode_safe<review_t>(payload);
+      const auto review = wire::read<wire::Review>(payload);
       if (review) highest[review->specimen] = std::max<int>(highest[review->specimen], review->revision);
     }
   return highest;

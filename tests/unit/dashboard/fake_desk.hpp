@@ -20,7 +20,7 @@ class FakeDesk : public Desk {
     ++models_read;
     return family == "family-2" ? std::optional(material::default_parameters()) : std::nullopt;
   }
-  std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
+  std::optional<wire::Diagnosis> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
   Delivery enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
