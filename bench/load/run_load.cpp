@@ -4,8 +4,8 @@
 #include "loads.hpp"
 #include "made_up.hpp"
 #include "report/report.hpp"
-#include "store/run_database.hpp"
-#include "store/run_record.hpp"
+#include "run/run.hpp"
+#include "run/run_database.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::load {
@@ -17,25 +17,25 @@ void load_run(const Options& options) {
   const auto specimens = made_up_specimens(options.measurements, options.designs, random);
   Latencies measurements, chunks, reading, reporting;
   {
-    store::RunDatabase database(file);
+    run::RunDatabase database(file);
     for (std::size_t i = 0; i < specimens.size(); ++i) {
       wire::Measurement measurement;
       measurement.round = 1 + static_cast<int>(i) % options.rounds;
       measurement.record = specimens[i];
-      measurements.time([&] { database.project("MEASUREMENT", wire::write(measurement)); });
+      measurements.time([&] { database.keep("MEASUREMENT", wire::write(measurement)); });
     }
     for (int round = 0; round <= options.rounds; ++round) {
       for (const wire::GamutChunk& chunk : wire::gamut_chunks(round, tester::Fidelity::preview, gamut))
-        chunks.time([&] { database.project("GAMUT", wire::write(chunk)); });
+        chunks.time([&] { database.keep("GAMUT", wire::write(chunk)); });
       wire::RoundSummary summary;
       summary.round = round;
-      database.project("ROUND", wire::write(summary));
+      database.keep("ROUND", wire::write(summary));
     }
   }
-  measurements.print("run.db: take a measurement");
-  chunks.print("run.db: take 1000 samples of a gamut");
-  store::RunRecord record;
-  reading.time([&] { record = store::read_run_record(file); });
+  measurements.print("run.db: keep a measurement");
+  chunks.print("run.db: keep 1000 samples of a gamut");
+  run::RunRecord record;
+  reading.time([&] { record = run::Run(options.folder).record_with_gamuts(); });
   reading.print("run.db: read the run");
   std::string report;
   reporting.time([&] { report = report::render_report(record, "load"); });

@@ -12,8 +12,9 @@
 #include "dashboard/laboratory_view.hpp"
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/rounds_view.hpp"
+#include "dashboard/run_view.hpp"
+#include "run/measured_patterns.hpp"
 #include "runtime/bus.hpp"
-#include "store/measured_patterns.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -71,13 +72,15 @@ T or_refuse(Result<T> result) {
 }
 
 /// Where the database cannot be read, no: the page shall go on showing the nodes.
-bool is_known_to_be_over(RunData& data) {
+bool is_known_to_be_over(run::Run& data) {
   try {
-    return store::is_over(*data.record());
+    return run::is_over(*data.record());
   } catch (const InputError&) {
     return false;
   }
 }
+
+Response row_response(const auto& row) { return json_response(wire::json_of(row)); }
 
 Response binary(std::string bytes) {
   return {.type = "application/octet-stream", .body = std::move(bytes), .headers = {}};
@@ -88,7 +91,7 @@ Response binary(std::string bytes) {
 Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
     : settings_(std::move(settings)),
       desk_(desk),
-      data_(settings_.run_folder),
+      run_(settings_.run_folder),
       page_(settings_.page_folder),
       family_folder_(settings_.family_folder),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
@@ -138,45 +141,44 @@ Response Dashboard::handle(const Request& request) {
 
 Response Dashboard::run(const Request&) {
   const game::Scenario& s = settings_.scenario;
-  return json_response({{"run", settings_.run_id},
-                        {"scenario", s.name},
-                        {"fidelity", tester::to_string(s.fidelity)},
-                        {"rounds", s.rounds},
-                        {"approval", s.validation.approval},
-                        {"virtual_lab", s.laboratory.virtual_lab},
-                        {"replicates", s.validation.replicates},
-                        {"started", settings_.started},
-                        {"nacre_version", settings_.nacre_version},
-                        {"commit", settings_.commit},
-                        {"report", std::filesystem::exists(settings_.run_folder / "report.html")},
-                        {"user", settings_.user}});
+  return row_response(RunRow{.run = settings_.run_id,
+                             .scenario = s.name,
+                             .fidelity = s.fidelity,
+                             .rounds = s.rounds,
+                             .approval = s.validation.approval,
+                             .virtual_lab = s.laboratory.virtual_lab,
+                             .replicates = s.validation.replicates,
+                             .started = settings_.started,
+                             .nacre_version = settings_.nacre_version,
+                             .commit = settings_.commit,
+                             .report = std::filesystem::exists(settings_.run_folder / "report.html"),
+                             .user = settings_.user});
 }
 
 Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
-  return json_response({{"playing", is_playing(nodes)},
-                        {"data", data_.version()},
-                        {"nodes", nodes_json(nodes, is_known_to_be_over(data_))}});
+  return row_response(LiveRow{is_playing(nodes), run_.version(), node_rows(nodes, is_known_to_be_over(run_))});
 }
 
-Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
+Response Dashboard::rounds(const Request&) { return row_response(rounds_row(*run_.record())); }
 
 Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {
-    const auto record = data_.record();
-    for (const store::RecordedFamily& each : record->families)
-      if (each.stated.name == family->second) return binary(gamut_bytes(gamut_of_family(each), each.stated.round));
+    const auto record = run_.record();
+    for (const run::FamilyRecord& each : record->families)
+      if (each.stated.name == family->second)
+        return binary(gamut_bytes(*run_.variants(each.stated.number), each.stated.round));
     return error_response(404, "there is no such family");
   }
   const int round = round_of(request);
-  const auto gamut = data_.gamut(round);
-  if (gamut->patterns.empty() && !data_.record()->rounds.contains(round))
+  const auto gamut = run_.gamut(round);
+  if (gamut->patterns.empty() && !run_.record()->rounds.contains(round))
     return error_response(404, "there is no such round");
   return binary(gamut_bytes(*gamut, round));
 }
 
 Response Dashboard::design(const Request& request) {
-  return json_response(design_json(*data_.record(), design_of(request)));
+  return row_response(design_row(*run_.record(), design_of(request)));
 }
 
 Dashboard::FractureRequest Dashboard::fracture_request(const Request& request, const pattern::Design& design,
@@ -190,12 +192,13 @@ Dashboard::FractureRequest Dashboard::fracture_request(const Request& request) {
 }
 
 std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string& model) {
-  const std::lock_guard lock(models_mutex_);
-  if (const auto known = models_of_game_.find(model); known != models_of_game_.end()) return known->second;
-  const std::lock_guard desk_lock(desk_mutex_);
-  const auto parameters = is_round(model) ? desk_.model(number(model, "model")) : desk_.family_model(model);
-  if (parameters) models_of_game_.emplace(model, *parameters);
-  return parameters;
+  const auto record = run_.record();
+  for (const run::FamilyRecord& family : record->families)
+    if (family.stated.name == model) return family.stated.parameters;
+  if (!is_round(model)) return std::nullopt;
+  const auto round = record->rounds.find(number(model, "model"));
+  if (round == record->rounds.end() || !round->second.model) return std::nullopt;
+  return round->second.model->parameters;
 }
 
 Result<material::ParameterSet> Dashboard::parameters_of(const FractureRequest& fracture) {
@@ -217,7 +220,7 @@ Background::State Dashboard::made(const FractureRequest& fracture) {
 }
 
 Json Dashboard::simulation_state(const FractureRequest& fracture) {
-  if (films_.name_in_run(*data_.record(), fracture.design.name(), fracture.model) && is_by_game(fracture))
+  if (films_.name_in_run(*run_.record(), fracture.design.name(), fracture.model) && is_by_game(fracture))
     return {{"state", "ready"}, {"source", "run"}};
   const Background::State state = made(fracture);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
@@ -232,7 +235,7 @@ Response Dashboard::simulation(const Request& request) {
 
 Response Dashboard::film(const Request& request) {
   const FractureRequest fracture = fracture_request(request);
-  auto film = films_.of_run(*data_.record(), fracture.design.name(), fracture.model);
+  auto film = films_.of_run(*run_.record(), fracture.design.name(), fracture.model);
   if (film && is_by_game(fracture)) return binary(*std::move(film));
   const Background::State state = made(fracture);
   if (!state.result) return error_response(404, "there is no film of this design yet");
@@ -255,7 +258,7 @@ Response Dashboard::laboratory(const Request&) {
   const std::lock_guard lock(desk_mutex_);
   const std::int64_t begun_us = runtime::steady_us();
   if (begun_us >= laboratory_fresh_until_us_) {
-    laboratory_ = laboratory_json(desk_.laboratory());
+    laboratory_ = wire::json_of(laboratory_row(desk_.laboratory()));
     const std::int64_t now_us = runtime::steady_us();
     laboratory_fresh_until_us_ = now_us + std::max(kLeastFresh_us, kFreshPerCost * (now_us - begun_us));
   }
@@ -263,14 +266,14 @@ Response Dashboard::laboratory(const Request&) {
 }
 
 Response Dashboard::diagnosis(const Request& request) {
-  const int round = round_of(request);
-  const std::lock_guard lock(desk_mutex_);
-  return json_response(diagnosis_json(*data_.record(), desk_.diagnosis(round), round));
+  return row_response(diagnosis_row(*run_.record(), round_of(request)));
 }
 
 Response Dashboard::maps(const Request&) {
   Json gamuts = Json::array();
-  for (const auto& [round, size] : data_.gamut_sizes()) gamuts.push_back(fmt::format("gamut/{}", round));
+  const auto record = run_.record();
+  for (const auto& [number, round] : record->rounds)
+    if (round.gamut_count > 0) gamuts.push_back(fmt::format("gamut/{}", number));
   return json_response({{"families", family_folder_.families()}, {"gamuts", gamuts}});
 }
 
@@ -281,7 +284,7 @@ Response Dashboard::map(const Request& request) {
     return map ? json_response({{"state", "ready"}, {"map", to_json(*map)}}) : error_response(404, map.error().message);
   }
   const int round = number(id.substr(6), "id");
-  const auto gamut = data_.gamut(round);
+  const auto gamut = run_.gamut(round);
   const std::string key = fmt::format("{}@{}", id, gamut->patterns.size());
   Background::State state = maps_.state(key);
   if (state.stage == Background::Stage::unknown) {
@@ -303,11 +306,10 @@ Response Dashboard::between(const Request& request) {
 }
 
 Response Dashboard::families(const Request&) {
-  const auto record = data_.record();
-  Json json =
-      families_json(*record, family_folder_.grouping(measured_members(*record), settings_.scenario.families.rank));
-  json["enabled"] = settings_.scenario.families.enabled;
-  return json_response(json);
+  const auto record = run_.record();
+  const game::FamilySettings& settings = settings_.scenario.families;
+  return row_response(
+      families_row(*record, family_folder_.grouping(measured_members(*record), settings.rank), settings.enabled));
 }
 
 Response Dashboard::report(const Request&) {
@@ -357,7 +359,7 @@ Response Dashboard::decide(const Request& request) {
 
 Response Dashboard::group(const Request& request) {
   const auto grouping = or_refuse(grouping_from_json(request.body));
-  const auto measured = measured_members(*data_.record());
+  const auto measured = measured_members(*run_.record());
   for (const families::SeedFamily& family : grouping)
     for (const pattern::Pattern& seed : family.seeds)
       if (std::ranges::count(measured, seed, &families::MeasuredPattern::pattern) == 0)

@@ -13,8 +13,8 @@
 #include "dashboard/http.hpp"
 #include "dashboard/maps.hpp"
 #include "dashboard/page_files.hpp"
-#include "dashboard/run_data.hpp"
 #include "game/scenario.hpp"
+#include "run/run.hpp"
 
 namespace nacre::dashboard {
 
@@ -84,9 +84,7 @@ class Dashboard {
   std::mutex desk_mutex_;  ///< the desk serves one request at a time
   Json laboratory_;        ///< as last read; reading a long journal takes a while
   std::int64_t laboratory_fresh_until_us_ = 0;
-  std::mutex models_mutex_;                                       ///< taken before the desk's
-  std::map<std::string, material::ParameterSet> models_of_game_;  ///< never change once they are there
-  RunData data_;
+  run::Run run_;
   PageFiles page_;
   FamilyFolder family_folder_;
   Films films_;

@@ -10,7 +10,6 @@
 
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
-#include "material/parameters.hpp"
 #include "measurement/specimen_record.hpp"
 #include "wire/convert.hpp"
 
@@ -64,12 +63,6 @@ class Desk {
   virtual ~Desk() = default;
   /// May throw InputError, like all calls here.
   virtual Laboratory laboratory() = 0;
-  /// The model adopted in a round; nothing when none was.
-  virtual std::optional<material::ParameterSet> model(int round) = 0;
-  /// The own model of a family of the stage after the game; nothing when there is no such family.
-  virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
-  /// The analyser's newest diagnosis of a round.
-  virtual std::optional<wire::Diagnosis> diagnosis(int round) = 0;
   /// Nodes that have reported within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.

@@ -26,10 +26,10 @@ std::string key_of(const tester::Simulation& simulation) {
 }
 
 /// The cracks that a model predicts, by design; nullptr where the run has no such model.
-const std::map<std::string, store::RecordedCrack>* cracks_by(const store::RunRecord& run, const std::string& model) {
+const std::map<std::string, wire::Fracture>* cracks_by(const run::RunRecord& run, const std::string& model) {
   for (const auto& [number, round] : run.rounds)
     if (std::to_string(number) == model) return &round.cracks;
-  for (const store::RecordedFamily& family : run.families)
+  for (const run::FamilyRecord& family : run.families)
     if (family.stated.name == model) return &family.cracks;
   return nullptr;
 }
@@ -56,7 +56,7 @@ MadeFilm unpacked(const std::string& made) {
           std::string_view(made).substr(sizeof(double))};
 }
 
-std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const std::string& design,
+std::optional<std::string> Films::name_in_run(const run::RunRecord& run, const std::string& design,
                                               const std::string& model) const {
   const auto* cracks = cracks_by(run, model);
   if (cracks == nullptr) return std::nullopt;
@@ -70,7 +70,7 @@ std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const
   return found->second.film;
 }
 
-std::optional<std::string> Films::of_run(const store::RunRecord& run, const std::string& design,
+std::optional<std::string> Films::of_run(const run::RunRecord& run, const std::string& design,
                                          const std::string& model) const {
   const auto name = name_in_run(run, design, model);
   if (!name) return std::nullopt;

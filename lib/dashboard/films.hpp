@@ -7,7 +7,7 @@
 #include <string>
 
 #include "dashboard/background.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::dashboard {
 
@@ -18,10 +18,10 @@ class Films {
 
   /// The film that the farm made of a design with a model (the number of a round or the name of a family); nothing when
   /// there is none or its file cannot be read.
-  std::optional<std::string> of_run(const store::RunRecord& run, const std::string& design,
+  std::optional<std::string> of_run(const run::RunRecord& run, const std::string& design,
                                     const std::string& model) const;
   /// Name of that film's file when it is there.
-  std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design,
+  std::optional<std::string> name_in_run(const run::RunRecord& run, const std::string& design,
                                          const std::string& model) const;
 
   /// Starts simulating and filming. False when too many tasks wait already.

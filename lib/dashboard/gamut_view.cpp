@@ -20,7 +20,7 @@ void append(std::string& bytes, const Number& number) {
 
 }  // namespace
 
-std::string gamut_bytes(const store::RecordedGamut& gamut, int round) {
+std::string gamut_bytes(const run::Gamut& gamut, int round) {
   const auto ranks = optimize::non_dominated_ranks(gamut.performances);
   nlohmann::ordered_json header = {
       {"round", round}, {"count", gamut.patterns.size()}, {"front", nlohmann::ordered_json::array()}};
@@ -39,7 +39,7 @@ std::string gamut_bytes(const store::RecordedGamut& gamut, int round) {
   return bytes;
 }
 
-std::vector<std::size_t> best_of(const store::RecordedGamut& gamut, std::size_t most) {
+std::vector<std::size_t> best_of(const run::Gamut& gamut, std::size_t most) {
   std::vector<std::size_t> order = optimize::best_by_rank(gamut.performances, most);
   std::sort(order.begin(), order.end());
   return order;

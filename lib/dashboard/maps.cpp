@@ -109,8 +109,7 @@ Json to_json(const PatternMap& map) {
           {"residual_variance", map.residual_variance < 0.0 ? Json(nullptr) : Json(map.residual_variance)}};
 }
 
-Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
-                                const std::function<void(double)>& progress) {
+Result<PatternMap> map_of_gamut(const run::Gamut& gamut, int round, const std::function<void(double)>& progress) {
   PatternMap map;
   map.id = fmt::format("gamut/{}", round);
   for (const std::size_t i : best_of(gamut, kMostMapped)) {

@@ -35,8 +35,7 @@ struct PatternMap {
 Json to_json(const PatternMap& map);
 
 /// The map of a gamut's best patterns by earth mover's distance and Isomap. The error says why there is none.
-Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
-                                const std::function<void(double)>& progress);
+Result<PatternMap> map_of_gamut(const run::Gamut& gamut, int round, const std::function<void(double)>& progress);
 
 /// The folder that `nacre families` writes.
 class FamilyFolder {

@@ -26,7 +26,7 @@ struct StatedFamily {
 
 std::vector<StatedFamily> families_of_run(const PaperSource& source) {
   std::vector<StatedFamily> all;
-  for (const store::RecordedFamily& family : source.run.families)
+  for (const run::FamilyRecord& family : source.run.families)
     all.push_back({family.stated.name, false, family.stated.is_validated, family.stated.designs});
   return all;
 }
@@ -203,8 +203,8 @@ std::optional<PlotPoint> point_of(const game::DesignValues& values) {
 /// What the axes of Figure 3-15 must hold.
 std::vector<PlotPoint> variants_and_measured(const PaperSource& source) {
   std::vector<PlotPoint> all;
-  for (const store::RecordedFamily& family : source.run.families) {
-    for (const explore::Evaluated& sample : family.gamut) all.push_back(to_point(sample.performance));
+  for (const run::FamilyRecord& family : source.run.families) {
+    for (const optimize::Performance& each : gamut_of(family).performances) all.push_back(to_point(each));
     for (const game::FamilyDesign& design : family.stated.designs)
       if (const auto point = point_of(design.measured)) all.push_back(*point);
   }
@@ -216,17 +216,17 @@ ExhibitTable variant_table(const PaperSource& source) {
       .name = "figure-3-15",
       .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
       .on_page = false};
-  for (const store::RecordedFamily& family : source.run.families) {
-    for (const explore::Evaluated& sample : family.gamut)
-      table.add({text_cell(family.stated.name), text_cell("variant"), text_cell(sample.pattern.key()),
-                 gpa_cell(sample.performance.modulus_pa), mpa_cell(sample.performance.toughness_pa)});
+  for (const run::FamilyRecord& family : source.run.families) {
+    const run::Gamut& gamut = gamut_of(family);
+    for (std::size_t i = 0; i < gamut.patterns.size(); ++i)
+      table.add({text_cell(family.stated.name), text_cell("variant"),
+                 text_cell(pattern::Pattern(gamut.patterns[i]).key()), gpa_cell(gamut.performances[i].modulus_pa),
+                 mpa_cell(gamut.performances[i].toughness_pa)});
   }
   return table;
 }
 
-std::string gamut_figure(const store::RecordedFamily& family, Ink ink, const Range& x, const Range& y) {
-  std::vector<optimize::Performance> gamut;
-  for (const explore::Evaluated& sample : family.gamut) gamut.push_back(sample.performance);
+std::string gamut_figure(const run::FamilyRecord& family, Ink ink, const Range& x, const Range& y) {
   std::vector<PlotPoint> seeds, chosen, predicted;
   for (const game::FamilyDesign& design : family.stated.designs) {
     if (const auto point = point_of(design.measured)) (design.is_seed ? seeds : chosen).push_back(*point);
@@ -239,7 +239,7 @@ std::string gamut_figure(const store::RecordedFamily& family, Ink ink, const Ran
              .y = y,
              .width = 460,
              .height = 340});
-  plot.cloud(to_points(thinned(gamut, kMostGamutPoints)), ink, "variants");
+  plot.cloud(to_points(thinned(gamut_of(family).performances, kMostGamutPoints)), ink, "variants");
   plot.dots(seeds, Ink::earlier, "seeds, measured");
   plot.rings(predicted, ink, "chosen, predicted");
   plot.dots(chosen, Ink::measured, "chosen, measured");
@@ -275,8 +275,8 @@ Exhibit family_gamut_exhibit(const PaperSource& source) {
   const Range x = range_of(all, &PlotPoint::x), y = range_of(all, &PlotPoint::y);
   std::size_t variants = 0;
   for (std::size_t f = 0; f < source.run.families.size(); ++f) {
-    const store::RecordedFamily& family = source.run.families[f];
-    variants += family.gamut.size();
+    const run::FamilyRecord& family = source.run.families[f];
+    variants += gamut_of(family).patterns.size();
     exhibit.figures.push_back({"figure-3-15-" + family.stated.name, gamut_figure(family, family_ink(f), x, y)});
   }
   exhibit.notes.push_back(

@@ -34,9 +34,9 @@ ExhibitTable gamut_data(const PaperSource& source) {
                mpa_cell(p.toughness_pa)});
   };
   for (const auto& [number, round] : source.run.rounds) {
-    for (const optimize::Performance& p : round.gamut) add(number, "simulated", "", p);
-    for (const optimize::Performance& p : store::line_as_measured(round)) add(number, "homogeneous", "", p);
-    for (const store::RecordedProposal& p : round.proposals) add(number, "proposed", p.design, p.predicted);
+    for (const optimize::Performance& p : gamut_of(round).performances) add(number, "simulated", "", p);
+    for (const optimize::Performance& p : run::line_as_measured(round)) add(number, "homogeneous", "", p);
+    for (const wire::ProposedDesign& p : round.proposals) add(number, "proposed", p.design.name(), predicted(p));
     for (const MeasuredPattern& m : measured_patterns(source.run, number))
       if (m.round == number) add(number, "measured", m.pattern.key(), m.mean);
   }
@@ -112,11 +112,11 @@ std::vector<ComparedDesign> best_designs(const std::vector<MeasuredPattern>& mea
 }
 
 /// Toughness of the tougher base material as this run measured it.
-std::optional<double> tougher_base_pa(const store::RunRecord& run) {
+std::optional<double> tougher_base_pa(const run::RunRecord& run) {
   std::optional<double> best;
   for (const char* name : {"soft", "rigid"}) {
     std::vector<double> values;
-    for (const store::MeasuredSpecimen& m : run.specimens) {
+    for (const run::MeasuredSpecimen& m : run.specimens) {
       if (!m.record.valid || m.record.test != tester::TestKind::toughness || m.record.design.name() != name) continue;
       if (!game::is_standard(m.record.conditions)) continue;
       if (const auto toughness = measurement::toughness_of(m.record)) values.push_back(*toughness);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "base/named_table.hpp"
 #include "base/names.hpp"
@@ -12,29 +11,14 @@
 #include "game/standings.hpp"
 #include "pattern/pattern_key.hpp"
 #include "report/report_data.hpp"
-#include "runtime/journal.hpp"
+#include "run/journal_messages.hpp"
+#include "run/run.hpp"
 #include "sysid/objective.hpp"
-#include "wire/header.hpp"
 
 namespace nacre::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Calls `use(channel, payload, is_output)` for every message of a node's journal; nothing when there is none.
-void each_message(const fs::path& run_dir, const std::string& node,
-                  const std::function<void(const std::string&, const std::string&, bool)>& use) {
-  const fs::path journal = run_dir / "nodes" / node / "journal.lcm";
-  if (!fs::exists(journal)) return;
-  runtime::LogReader reader(journal);
-  while (const auto record = reader.next()) {
-    if (record->channel.starts_with(runtime::kOutPrefix)) {
-      use(record->channel.substr(runtime::kOutPrefix.size()), record->data, true);
-    } else if (const auto blanked = wire::blank_header(record->channel, record->data)) {
-      use(record->channel, blanked->payload, false);
-    }
-  }
-}
 
 /// The requests of a node to the simulator farm, in order, and the responses.
 struct FarmTraffic {
@@ -45,16 +29,16 @@ struct FarmTraffic {
 FarmTraffic farm_traffic(const fs::path& run_dir, const std::string& node) {
   FarmTraffic traffic;
   wire::ResponseCollector collector;
-  each_message(run_dir, node, [&](const std::string& channel, const std::string& payload, bool is_output) {
-    if (channel == "SIMULATE" && is_output) {
-      if (auto request = wire::read<wire::SimulateRequest>(payload)) traffic.requests.push_back(std::move(*request));
-    } else if (channel == "SIMULATED" && !is_output) {
-      auto part = wire::read<wire::SimulateResult>(payload);
-      if (!part) return;
-      const std::string id = part->request_id;
-      if (auto whole = collector.add(std::move(*part))) traffic.responses.emplace(id, std::move(*whole));
-    }
-  });
+  const auto take_request = [&](const std::string& payload) {
+    if (auto request = wire::read<wire::SimulateRequest>(payload)) traffic.requests.push_back(std::move(*request));
+  };
+  const auto take_response = [&](const std::string& payload) {
+    auto part = wire::read<wire::SimulateResult>(payload);
+    if (!part) return;
+    const std::string id = part->request_id;
+    if (auto whole = collector.add(std::move(*part))) traffic.responses.emplace(id, std::move(*whole));
+  };
+  run::JournalMessages(run_dir, node).read({{"SIMULATED", take_response}}, {{"SIMULATE", take_request}});
   return traffic;
 }
 
@@ -124,7 +108,7 @@ ModelPredictions predictions_in(const FarmTraffic& traffic, const std::map<int, 
 
 /// The analyser's own requests: what each round's model predicts for everything measured by then, and for its
 /// proposals.
-void add_recorded(const store::RunRecord& run, ModelPredictions& predictions) {
+void add_recorded(const run::RunRecord& run, ModelPredictions& predictions) {
   for (const auto& [number, round] : run.rounds) {
     const material::Extensions extensions = extensions_of(round);
     const auto add = [&, &known = predictions[number]](const std::string& design,
@@ -136,25 +120,21 @@ void add_recorded(const store::RunRecord& run, ModelPredictions& predictions) {
       if (!values.toughness_pa) values.toughness_pa = recorded.toughness_pa;
     };
     for (const auto& [design, simulation] : round.simulated)
-      if (simulation.failure.empty()) add(design, simulation.performance, simulation.curve);
-    for (const store::RecordedProposal& proposal : round.proposals) add(proposal.design, proposal.predicted, {});
+      if (simulation.failure.empty()) add(design, {simulation.modulus_pa, simulation.toughness_pa}, simulation.curve);
+    for (const wire::ProposedDesign& proposal : round.proposals) add(proposal.design.name(), predicted(proposal), {});
   }
 }
 
-std::map<int, material::ParameterSet> adopted_models(const fs::path& run_dir) {
+std::map<int, material::ParameterSet> adopted_models(const run::RunRecord& run) {
   std::map<int, material::ParameterSet> models;
-  each_message(run_dir, "validation_agent",
-               [&](const std::string& channel, const std::string& payload, bool is_output) {
-                 if (channel != "PARAMETERS" || !is_output) return;
-                 if (const auto model = wire::read<wire::AdoptedModel>(payload))
-                   models[model->round] = model->parameters;
-               });
+  for (const auto& [number, round] : run.rounds)
+    if (round.model) models[number] = round.model->parameters;
   return models;
 }
 
 /// The families: of the stage; of the file that a person may have edited; else proposed from what was measured.
 void find_groups(const fs::path& run_dir, PaperSource& source) {
-  for (const store::RecordedFamily& family : source.run.families) {
+  for (const run::FamilyRecord& family : source.run.families) {
     families::SeedFamily& group = source.groups.emplace_back();
     group.name = family.stated.name;
     for (const game::FamilyDesign& design : family.stated.designs)
@@ -223,12 +203,12 @@ std::optional<double> error_of(const std::optional<double>& simulated, const std
 PaperSource read_paper_source(const fs::path& run_dir, const std::string& run_id, const fs::path& thesis_folder) {
   PaperSource source;
   source.run_id = run_id;
-  source.run = store::read_run_record(run_dir / "run.db");
+  source.run = run::Run(run_dir).record_with_gamuts();
   if (const fs::path file = run_dir / "inputs" / "base_materials.csv"; fs::exists(file))
     source.base_materials = game::read_base_materials(file);
   if (!thesis_folder.empty()) source.thesis = game::read_thesis_tables(thesis_folder);
   source.searches = searches_of(farm_traffic(run_dir, "proposal_agent"));
-  source.predictions = predictions_in(farm_traffic(run_dir, "validation_agent"), adopted_models(run_dir));
+  source.predictions = predictions_in(farm_traffic(run_dir, "validation_agent"), adopted_models(source.run));
   add_recorded(source.run, source.predictions);
   find_groups(run_dir, source);
   read_maps(run_dir, source);

@@ -9,7 +9,7 @@
 
 #include "families/grouping.hpp"
 #include "game/thesis_tables.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
@@ -39,7 +39,7 @@ using ModelPredictions = std::map<int, std::map<std::string, game::DesignValues>
 /// What a run does not hold is empty.
 struct PaperSource {
   std::string run_id;
-  store::RunRecord run;
+  run::RunRecord run;
   game::ThesisTables thesis;
   std::vector<measurement::Replicates> base_materials;  ///< that round 0 was fitted to
   std::vector<SearchPath> searches;                     ///< by round and branch

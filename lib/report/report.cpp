@@ -10,7 +10,7 @@
 
 namespace nacre::report {
 
-std::string render_report(const store::RunRecord& run, const std::string& run_id) {
+std::string render_report(const run::RunRecord& run, const std::string& run_id) {
   return render_page({.title = run_id + " – nacre",
                       .eyebrow = "nacre, report of a run",
                       .heading = run_id,

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
 /// The run as one self-contained HTML page, readable offline: the best design and its gain over homogeneous mixtures,
 /// how the game stands, gamuts with fronts and measured points, hypervolumes and gap, prediction errors and the thesis'
 /// figures, curves simulated and measured, proposed patterns, diagnosis, specimens.
-std::string render_report(const store::RunRecord& run, const std::string& run_id);
+std::string render_report(const run::RunRecord& run, const std::string& run_id);
 
 }  // namespace nacre::report

@@ -16,7 +16,7 @@ namespace {
 constexpr int kPictureOfBest = 132, kPictureInRow = 48;  // px
 
 /// The measured front, stiffest first.
-std::vector<ComparedDesign> measured_front(const store::RunRecord& run) {
+std::vector<ComparedDesign> measured_front(const run::RunRecord& run) {
   const std::vector<MeasuredPattern> patterns = measured_patterns(run, newest_round(run).value_or(0));
   const std::vector<optimize::Performance> line = newest_line(run);
   std::vector<optimize::Performance> points;
@@ -89,7 +89,7 @@ ExhibitTable empty_table() {
 
 }  // namespace
 
-std::string best_design(const store::RunRecord& run) {
+std::string best_design(const run::RunRecord& run) {
   const std::vector<ComparedDesign> front = measured_front(run);
   if (front.empty()) return "";
   const ComparedDesign& best = best_of(front);
@@ -106,7 +106,7 @@ std::string best_design(const store::RunRecord& run) {
       phase_legend(), kThesisToughnessGain);
 }
 
-Exhibit best_exhibit(const store::RunRecord& run) {
+Exhibit best_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "best", .heading = "Best designs against homogeneous mixtures"};
   const std::vector<ComparedDesign> front = measured_front(run);
   if (front.empty()) {

@@ -4,14 +4,14 @@
 #include <string>
 
 #include "report/exhibit.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
 /// The design with the largest gain, as HTML for the head of a page; empty before a pattern was measured in both tests.
-std::string best_design(const store::RunRecord& run);
+std::string best_design(const run::RunRecord& run);
 
 /// The measured front, each design with its gain.
-Exhibit best_exhibit(const store::RunRecord& run);
+Exhibit best_exhibit(const run::RunRecord& run);
 
 }  // namespace nacre::report

@@ -67,9 +67,9 @@ std::optional<double> line_at(std::span<const optimize::Performance> line, doubl
 
 }  // namespace
 
-std::vector<optimize::Performance> newest_line(const store::RunRecord& run) {
+std::vector<optimize::Performance> newest_line(const run::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
-    if (!round->second.benchmark.empty()) return store::line_as_measured(round->second);
+    if (const auto line = run::line_as_measured(round->second); !line.empty()) return line;
   }
   return {};
 }

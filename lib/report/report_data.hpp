@@ -8,21 +8,23 @@
 #include <vector>
 
 #include "pattern/layout.hpp"
-#include "store/adopted_model.hpp"
-#include "store/measured_patterns.hpp"
-#include "store/run_record.hpp"
+#include "run/adopted_model.hpp"
+#include "run/measured_patterns.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
-using store::extensions_of;
-using store::is_over;
-using store::measured_patterns;
-using store::MeasuredPattern;
-using store::newest_closed_round;
-using store::newest_round;
+using run::extensions_of;
+using run::gamut_of;
+using run::is_over;
+using run::measured_patterns;
+using run::MeasuredPattern;
+using run::newest_closed_round;
+using run::newest_round;
+using run::predicted;
 
 /// The homogeneous line that the newest model carries, as recorded by the testing machine.
-std::vector<optimize::Performance> newest_line(const store::RunRecord& run);
+std::vector<optimize::Performance> newest_line(const run::RunRecord& run);
 
 /// Mean relative errors of predictions that know nothing of structure.
 struct Baselines {

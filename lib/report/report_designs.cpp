@@ -18,31 +18,30 @@ std::string deviation(double predicted, double measured) {
 }
 
 /// Predicted and measured E and T; `missing`: what stands for measured values where there are none.
-std::string performance_table(const store::RecordedProposal& proposal, const MeasuredPattern* measured,
+std::string performance_table(const wire::ProposedDesign& proposal, const MeasuredPattern* measured,
                               const std::string& missing) {
-  const optimize::Performance& p = proposal.predicted;
   ExhibitTable table{.name = "", .columns = {{"", ""}, {"", "E (GPa)"}, {"", "T (MPa)"}}};
-  table.add({text_cell("predicted"), gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa)});
+  table.add({text_cell("predicted"), gpa_cell(proposal.modulus_pa), mpa_cell(proposal.toughness_pa)});
   if (measured != nullptr) {
     table.add({text_cell("measured"),
                shown_cell(with_error(measured->mean.modulus_pa * 1e-9, measured->modulus_sd_pa * 1e-9)),
                shown_cell(with_error(measured->mean.toughness_pa * 1e-6, measured->toughness_sd_pa * 1e-6))});
-    table.add({text_cell("prediction error"), shown_cell(deviation(p.modulus_pa, measured->mean.modulus_pa)),
-               shown_cell(deviation(p.toughness_pa, measured->mean.toughness_pa))});
+    table.add({text_cell("prediction error"), shown_cell(deviation(proposal.modulus_pa, measured->mean.modulus_pa)),
+               shown_cell(deviation(proposal.toughness_pa, measured->mean.toughness_pa))});
   } else {
     table.add({text_cell("measured"), text_cell(missing), text_cell(missing)}, TableRowKind::aside);
   }
   return html_of(table);
 }
 
-ExhibitFigure proposal_card(const store::RecordedProposal& proposal, const std::vector<MeasuredPattern>& measured,
+ExhibitFigure proposal_card(const wire::ProposedDesign& proposal, const std::vector<MeasuredPattern>& measured,
                             const std::string& missing) {
   constexpr int kPictureOfProposal = 120;  // px
-  const auto design = pattern::design_from_name(proposal.design);
+  const std::string name = proposal.design.name();
   return {.name = "",
-          .svg = design ? design_picture(*design, kPictureOfProposal) : "",
-          .caption = fmt::format("<p>{}</p>\n{}<p class=\"quiet\">{}</p>", design_name(proposal.design),
-                                 performance_table(proposal, find_measured(measured, proposal.design), missing),
+          .svg = design_picture(proposal.design, kPictureOfProposal),
+          .caption = fmt::format("<p>{}</p>\n{}<p class=\"quiet\">{}</p>", design_name(name),
+                                 performance_table(proposal, find_measured(measured, name), missing),
                                  escaped(proposal.reason))};
 }
 
@@ -61,7 +60,7 @@ std::string specimen_name(const std::string& name) {
   return fmt::format("<code{}>{}</code>", name.size() > kOneLine ? " class=\"long\"" : "", escaped(name));
 }
 
-std::vector<Cell> specimen_row(const store::MeasuredSpecimen& m) {
+std::vector<Cell> specimen_row(const run::MeasuredSpecimen& m) {
   const measurement::SpecimenRecord& r = m.record;
   const auto modulus = measurement::modulus_of(r),
              toughness = r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa;
@@ -79,14 +78,14 @@ std::vector<Cell> specimen_row(const store::MeasuredSpecimen& m) {
 
 }  // namespace
 
-Exhibit proposal_exhibit(const store::RunRecord& run) {
+Exhibit proposal_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "proposals", .heading = "Proposed patterns"};
   const auto measured = measured_patterns(run, newest_round(run).value_or(0));
   const std::string missing = is_over(run) ? "not measured" : "awaited";
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (round->second.proposals.empty()) continue;
     Exhibit& part = exhibit.parts.emplace_back(Exhibit{.id = "", .heading = fmt::format("Round {}", round->first)});
-    for (const store::RecordedProposal& proposal : round->second.proposals)
+    for (const wire::ProposedDesign& proposal : round->second.proposals)
       part.figures.push_back(proposal_card(proposal, measured, missing));
   }
   exhibit.notes.push_back(
@@ -98,7 +97,7 @@ Exhibit proposal_exhibit(const store::RunRecord& run) {
   return exhibit;
 }
 
-Exhibit specimen_exhibit(const store::RunRecord& run) {
+Exhibit specimen_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "specimens", .heading = "Specimens"};
   if (run.specimens.empty()) {
     exhibit.notes.push_back(awaited("the first measurement"));
@@ -117,7 +116,7 @@ Exhibit specimen_exhibit(const store::RunRecord& run) {
                                  {"", "note"}}};
   table.look = "words";
   int invalid = 0;
-  for (const store::MeasuredSpecimen& m : run.specimens) {
+  for (const run::MeasuredSpecimen& m : run.specimens) {
     table.add(specimen_row(m), m.record.valid ? TableRowKind::own : TableRowKind::aside);
     if (!m.record.valid) ++invalid;
   }

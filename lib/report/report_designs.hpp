@@ -2,11 +2,11 @@
 // The proposed patterns of a game, round by round, and all its specimens.
 
 #include "report/exhibit.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
-Exhibit proposal_exhibit(const store::RunRecord& run);
-Exhibit specimen_exhibit(const store::RunRecord& run);
+Exhibit proposal_exhibit(const run::RunRecord& run);
+Exhibit specimen_exhibit(const run::RunRecord& run);
 
 }  // namespace nacre::report

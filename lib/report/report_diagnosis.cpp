@@ -4,18 +4,18 @@
 
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
-#include "store/misfit.hpp"
+#include "run/misfit.hpp"
 
 namespace nacre::report {
 namespace {
 
-ExhibitTable effect_table(const std::vector<store::RecordedEffect>& effects) {
+ExhibitTable effect_table(const std::vector<wire::DiagnosedEffect>& effects) {
   ExhibitTable table{.name = "",
                      .columns = {{"", "cause"},
                                  {"", "effect size", "Fitted value of the parameter that the cause adds to the model"},
                                  {"", "90 % interval", "Holds the true value in nine of ten cases"},
                                  {"", "unit"}}};
-  for (const store::RecordedEffect& e : effects) {
+  for (const wire::DiagnosedEffect& e : effects) {
     table.add({shown_cell(effect_name(e.name)), shown_cell(quantity(e.parameter)),
                shown_cell(fmt::format("{} … {}", quantity(e.interval_low), quantity(e.interval_high))),
                text_cell(e.unit)});
@@ -23,7 +23,7 @@ ExhibitTable effect_table(const std::vector<store::RecordedEffect>& effects) {
   return table;
 }
 
-ExhibitTable candidate_table(const std::vector<store::RecordedCandidate>& candidates) {
+ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candidates) {
   ExhibitTable table{
       .name = "",
       .columns = {
@@ -37,7 +37,7 @@ ExhibitTable candidate_table(const std::vector<store::RecordedCandidate>& candid
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
           {"", "imitated by base model", "Share of the effect's signature that refitted base parameters imitate"}}};
   table.look = "named";
-  for (const store::RecordedCandidate& c : candidates) {
+  for (const wire::DiagnosedCandidate& c : candidates) {
     const bool was_fitted = c.status != "not_applicable";
     const std::string status = escaped(status_in_words(c.status));
     table.add({shown_cell(effect_name(c.name)),
@@ -67,23 +67,23 @@ std::string status_in_words(std::string_view status) {
   return std::string(status);
 }
 
-Exhibit diagnosis_exhibit(const store::RunRecord& run) {
+Exhibit diagnosis_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "diagnosis", .heading = "Diagnosis: what the simulation gets wrong, and why"};
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
-    const store::RecordedDiagnosis& d = *round->second.diagnosis;
+    const wire::Diagnosis& d = *round->second.diagnosis;
     // The summary says what a named effect gains on new designs (diagnosis::gain_in_words): no second figure here.
     Exhibit part{.id = "", .heading = fmt::format("Round {}: {}", round->first, verdict_in_words(d.verdict))};
     part.notes.push_back(escaped(d.summary));
     // A verdict that the calibration of the same round speaks against does not stand alone.
-    if (const std::string against = store::misfit_beside_verdict(round->second); !against.empty())
+    if (const std::string against = run::misfit_beside_verdict(round->second); !against.empty())
       part.warnings.push_back(escaped(against));
-    part.tables = {effect_table(d.effects), candidate_table(d.candidates)};
+    part.tables = {effect_table(run::named_effects(d)), candidate_table(d.candidates)};
     exhibit.parts.push_back(std::move(part));
   }
   if (exhibit.parts.empty())
-    exhibit.notes.push_back(
-        awaited("the first diagnosis, which follows the calibration of round 1 (unless the scenario turns it off)"));
+    exhibit.notes.push_back(run.is_diagnosed ? awaited("the first diagnosis, which follows the calibration of round 1")
+                                             : "The scenario turns the diagnosis off.");
   return exhibit;
 }
 

@@ -5,11 +5,11 @@
 #include <string_view>
 
 #include "report/exhibit.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
-Exhibit diagnosis_exhibit(const store::RunRecord& run);
+Exhibit diagnosis_exhibit(const run::RunRecord& run);
 
 /// A verdict of a diagnosis, as its wire value, in plain words.
 std::string verdict_in_words(const std::string& verdict);

@@ -27,7 +27,7 @@ Cell strong_cell(int count, double error) {
   return count ? shown_cell(fmt::format("<strong>{}</strong>", percent(error))) : dash();
 }
 
-std::vector<Cell> own_row(const store::RunRecord& run, int number, const wire::RoundSummary& s) {
+std::vector<Cell> own_row(const run::RunRecord& run, int number, const wire::RoundSummary& s) {
   const Baselines trivial = baselines(measured_patterns(run, number));
   const auto& new_designs = s.held_out;
   return {text_cell(fmt::format("{}", number)),
@@ -86,7 +86,7 @@ ExhibitTable empty_table() {
 
 }  // namespace
 
-Exhibit error_exhibit(const store::RunRecord& run) {
+Exhibit error_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "errors", .heading = "Prediction errors"};
   exhibit.notes.push_back(
       "<strong>Out-of-sample</strong>: the model of the previous round predicts its own proposals before they are "

@@ -3,10 +3,10 @@
 // nothing of structure.
 
 #include "report/exhibit.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report {
 
-Exhibit error_exhibit(const store::RunRecord& run);
+Exhibit error_exhibit(const run::RunRecord& run);
 
 }  // namespace nacre::report

@@ -40,9 +40,9 @@ std::vector<PlotPoint> curve_points(const tester::Curve& curve) {
   return points;
 }
 
-std::map<std::string, std::vector<tester::Curve>> measured_curves(const store::RunRecord& run) {
+std::map<std::string, std::vector<tester::Curve>> measured_curves(const run::RunRecord& run) {
   std::map<std::string, std::vector<tester::Curve>> curves;
-  for (const store::MeasuredSpecimen& m : run.specimens) {
+  for (const run::MeasuredSpecimen& m : run.specimens) {
     const measurement::SpecimenRecord& r = m.record;
     if (r.test == tester::TestKind::toughness && r.valid && !r.curve.empty() && game::is_standard(r.conditions))
       curves[r.design.name()].push_back(r.curve);
@@ -57,13 +57,13 @@ std::vector<PlotPoint> front_points(std::span<const optimize::Performance> perfo
 }
 
 /// Everything that the gamut figures show, so that all of them share their axes.
-std::vector<PlotPoint> all_points(const store::RunRecord& run, std::span<const MeasuredPattern> measured) {
+std::vector<PlotPoint> all_points(const run::RunRecord& run, std::span<const MeasuredPattern> measured) {
   std::vector<PlotPoint> points;
   for (const auto& [number, round] : run.rounds) {
-    for (const auto* list : {&round.gamut, &round.benchmark}) {
-      for (const optimize::Performance& p : *list) points.push_back(to_point(p));
-    }
-    for (const store::RecordedProposal& p : round.proposals) points.push_back(to_point(p.predicted));
+    for (const optimize::Performance& p : gamut_of(round).performances) points.push_back(to_point(p));
+    if (round.model)
+      for (const optimize::Performance& p : round.model->benchmark) points.push_back(to_point(p));
+    for (const wire::ProposedDesign& p : round.proposals) points.push_back(to_point(predicted(p)));
   }
   for (const MeasuredPattern& m : measured) {
     points.push_back(to_point({m.mean.modulus_pa + m.modulus_sd_pa, m.mean.toughness_pa + m.toughness_sd_pa}));
@@ -91,8 +91,8 @@ void draw_measured(Plot& plot, std::span<const MeasuredPattern> measured, int ro
   plot.staircase(front_points(all), Ink::measured, "measured front");
 }
 
-std::string gamut_figure(const store::RunRecord& run, int number, const Range& x, const Range& y) {
-  const store::RoundRecord& round = run.rounds.at(number);
+std::string gamut_figure(const run::RunRecord& run, int number, const Range& x, const Range& y) {
+  const run::RoundRecord& round = run.rounds.at(number);
   Plot plot({.title = fmt::format("Round {}", number),
              .x_label = "Young's modulus E (GPa)",
              .y_label = "toughness T (MPa)",
@@ -100,18 +100,18 @@ std::string gamut_figure(const store::RunRecord& run, int number, const Range& x
              .y = y,
              .width = 540,
              .height = 400});
-  plot.cloud(to_points(thinned(round.gamut, kMostGamutPoints)), Ink::simulated, "simulated patterns");
-  const std::vector<PlotPoint> mixtures = to_points(store::line_as_measured(round));
+  plot.cloud(to_points(thinned(gamut_of(round).performances, kMostGamutPoints)), Ink::simulated, "simulated patterns");
+  const std::vector<PlotPoint> mixtures = to_points(run::line_as_measured(round));
   plot.line(mixtures, Ink::homogeneous, Stroke::dashed, "homogeneous mixtures");
   plot.dots(mixtures, Ink::homogeneous, "");
-  plot.staircase(front_points(round.gamut), Ink::simulated, "simulated front");
+  plot.staircase(front_points(gamut_of(round).performances), Ink::simulated, "simulated front");
   draw_measured(plot, measured_patterns(run, number), number);
   std::vector<PlotPoint> proposals;
   std::vector<std::string> hints;
-  for (const store::RecordedProposal& p : round.proposals) {
-    proposals.push_back(to_point(p.predicted));
-    hints.push_back(
-        fmt::format("{}: predicted E {:.3g} GPa, T {:.3g} MPa", p.design, proposals.back().x, proposals.back().y));
+  for (const wire::ProposedDesign& p : round.proposals) {
+    proposals.push_back(to_point(predicted(p)));
+    hints.push_back(fmt::format("{}: predicted E {:.3g} GPa, T {:.3g} MPa", p.design.name(), proposals.back().x,
+                                proposals.back().y));
   }
   plot.rings(proposals, Ink::simulated, "proposed", hints);
   return plot.svg();
@@ -121,7 +121,7 @@ bool has_measurements(const wire::RoundSummary& summary) { return summary.measur
 
 /// One figure of the closed rounds as points over the round's number; `counts` says which rounds have it.
 template <class Value, class Counts = decltype(&has_measurements)>
-std::vector<PlotPoint> over_rounds(const store::RunRecord& run, Value value, Counts counts = has_measurements) {
+std::vector<PlotPoint> over_rounds(const run::RunRecord& run, Value value, Counts counts = has_measurements) {
   std::vector<PlotPoint> points;
   for (const auto& [number, round] : run.rounds) {
     if (round.summary && counts(*round.summary)) points.push_back({static_cast<double>(number), value(*round.summary)});
@@ -149,7 +149,7 @@ void line_with_dots(Plot& plot, std::span<const PlotPoint> points, Ink ink, std:
   plot.dots(points, ink, "");
 }
 
-std::string hypervolume_figure(const store::RunRecord& run) {
+std::string hypervolume_figure(const run::RunRecord& run) {
   const auto gamut = over_rounds(
       run, [](const auto& s) { return s.gamut_hypervolume_staircase; }, [](const auto&) { return true; });
   const auto measured = over_rounds(run, [](const auto& s) { return s.measured_hypervolume_staircase; });
@@ -166,14 +166,14 @@ std::string hypervolume_figure(const store::RunRecord& run) {
   return plot.svg();
 }
 
-std::string gap_figure(const store::RunRecord& run) {
+std::string gap_figure(const run::RunRecord& run) {
   const auto gap = over_rounds(run, [](const auto& s) { return s.gap; });
   Plot plot(round_axes("Gap between simulation and laboratory", "GPa MPa", gap, {}));
   line_with_dots(plot, gap, Ink::simulated, "area between the two fronts");
   return plot.svg();
 }
 
-std::string signed_gap_figure(const store::RunRecord& run) {
+std::string signed_gap_figure(const run::RunRecord& run) {
   const auto gap = over_rounds(run, [](const auto& s) { return s.signed_gap; });
   const auto low = over_rounds(run, [](const auto& s) { return -2.0 * s.hypervolume_error; });
   const auto high = over_rounds(run, [](const auto& s) { return 2.0 * s.hypervolume_error; });
@@ -204,16 +204,15 @@ DesignCurves& curves_of(std::vector<DesignCurves>& all, const std::string& desig
 }
 
 /// Notched specimens tested under standard conditions; the simulated curve as the testing machine would record it.
-std::vector<DesignCurves> collect_curves(const store::RunRecord& run) {
+std::vector<DesignCurves> collect_curves(const run::RunRecord& run) {
   std::vector<DesignCurves> all;
-  const int newest = newest_round(run).value_or(0);
-  for (const store::MeasuredSpecimen& m : run.specimens) {
+  for (const run::MeasuredSpecimen& m : run.specimens) {
     const measurement::SpecimenRecord& r = m.record;
     if (r.test != tester::TestKind::toughness || r.curve.empty() || !r.design.layout()) continue;
     if (!game::is_standard(r.conditions)) continue;
     DesignCurves& known = curves_of(all, r.design.name());
     (r.valid ? known.valid : known.invalid).push_back(r.curve);
-    known.measured_in = std::max(known.measured_in, m.round < 0 ? newest : m.round);
+    known.measured_in = std::max(known.measured_in, m.measured_in);
   }
   for (const auto& [number, round] : run.rounds) {
     const material::Extensions extensions = extensions_of(round);
@@ -260,26 +259,26 @@ std::string curve_figure(const DesignCurves& curves, const Range& x, const Range
 
 }  // namespace
 
-std::vector<std::string> gamut_figures(const store::RunRecord& run) {
+std::vector<std::string> gamut_figures(const run::RunRecord& run) {
   const std::vector<PlotPoint> points = all_points(run, measured_patterns(run, newest_round(run).value_or(0)));
   const Range x = range_of(points, &PlotPoint::x), y = range_of(points, &PlotPoint::y);
   std::vector<std::string> figures;
   for (const auto& [number, round] : run.rounds) {
     const bool has_content =
-        !round.gamut.empty() || !round.proposals.empty() || !measured_patterns(run, number).empty();
+        !gamut_of(round).patterns.empty() || !round.proposals.empty() || !measured_patterns(run, number).empty();
     if (has_content) figures.push_back(gamut_figure(run, number, x, y));
   }
   return figures;
 }
 
-std::vector<std::string> round_figures(const store::RunRecord& run) {
+std::vector<std::string> round_figures(const run::RunRecord& run) {
   if (!newest_closed_round(run)) return {};
   const bool is_measured = !over_rounds(run, [](const auto&) { return 0.0; }).empty();
   if (!is_measured) return {hypervolume_figure(run)};
   return {hypervolume_figure(run), gap_figure(run), signed_gap_figure(run)};
 }
 
-std::vector<std::string> curve_figures(const store::RunRecord& run) {
+std::vector<std::string> curve_figures(const run::RunRecord& run) {
   const std::vector<DesignCurves> all = collect_curves(run);
   std::vector<PlotPoint> points;
   for (const DesignCurves& curves : all) {

@@ -12,7 +12,7 @@ void add_figures(Exhibit& exhibit, std::vector<std::string> svgs) {
 
 }  // namespace
 
-Exhibit gamut_exhibit(const store::RunRecord& run) {
+Exhibit gamut_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "gamuts", .heading = "Simulation and measurements, round by round"};
   add_figures(exhibit, gamut_figures(run));
   if (exhibit.figures.empty()) {
@@ -28,7 +28,7 @@ Exhibit gamut_exhibit(const store::RunRecord& run) {
   return exhibit;
 }
 
-Exhibit round_exhibit(const store::RunRecord& run) {
+Exhibit round_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "rounds", .heading = "Hypervolume and gap"};
   add_figures(exhibit, round_figures(run));
   if (exhibit.figures.empty()) {
@@ -45,7 +45,7 @@ Exhibit round_exhibit(const store::RunRecord& run) {
   return exhibit;
 }
 
-Exhibit curve_exhibit(const store::RunRecord& run) {
+Exhibit curve_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "curves", .heading = "Stress-strain curves"};
   add_figures(exhibit, curve_figures(run));
   if (exhibit.figures.empty()) {

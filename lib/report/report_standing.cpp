@@ -8,7 +8,7 @@
 #include "report/report_diagnosis.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
-#include "store/misfit.hpp"
+#include "run/misfit.hpp"
 
 namespace nacre::report {
 namespace {
@@ -56,20 +56,20 @@ std::string equilibrium_in_words(const wire::RoundSummary& s) {
 }
 
 /// Third: what the newest diagnosis says.
-std::string diagnosis_in_words(const store::RunRecord& run) {
+std::string diagnosis_in_words(const run::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
-    const std::string against = store::misfit_beside_verdict(round->second);
+    const std::string against = run::misfit_beside_verdict(round->second);
     return fmt::format("Diagnosis of round {}: {}.{}", round->first,
                        escaped(verdict_in_words(round->second.diagnosis->verdict)),
                        against.empty() ? "" : " " + escaped(against));
   }
-  return "There is no diagnosis yet.";
+  return run.is_diagnosed ? "There is no diagnosis yet." : "The scenario turns the diagnosis off.";
 }
 
 }  // namespace
 
-std::string standing_sentences(const store::RunRecord& run) {
+std::string standing_sentences(const run::RunRecord& run) {
   const auto closed = newest_closed_round(run);
   if (!closed) return paragraph(awaited("the end of round 0, with the first model, gamut and proposals"));
   const wire::RoundSummary& summary = *run.rounds.at(*closed).summary;
@@ -77,11 +77,9 @@ std::string standing_sentences(const store::RunRecord& run) {
          paragraph(diagnosis_in_words(run)) + fidelity_words(summary.fidelity);
 }
 
-std::string machine_in_words(const store::RunRecord& run) {
+std::string machine_in_words(const run::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
-    material::ParameterSet model;
-    model.extensions = extensions_of(round->second);
-    if (!game::has_measurement_side(model)) continue;
+    if (!round->second.model || !game::has_measurement_side(round->second.model->parameters)) continue;
     return fmt::format(
         "The model of round {} contains effects of the testing machine: there the simulated values are those of the "
         "material alone, the measured ones are as recorded.",

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -64,7 +65,7 @@ struct LogReader::State {
   }
 };
 
-LogReader::LogReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
+LogReader::LogReader(const std::filesystem::path& path, std::int64_t from) : state_(std::make_unique<State>()) {
   state_->path = path;
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
@@ -85,6 +86,7 @@ LogReader::LogReader(const std::filesystem::path& path) : state_(std::make_uniqu
   const bool is_blank = state_->bytes.find_first_not_of('\0') == std::string_view::npos;
   if (!begins_as_log && !is_blank && !state_->next_sound(0))
     throw InputError::format("{}: no LCM log: it holds no record", path.string());
+  state_->position = std::min(from, state_->size());
 }
 
 LogReader::~LogReader() = default;

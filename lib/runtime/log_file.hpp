@@ -33,8 +33,9 @@ struct LogEnd {
 /// Reads an LCM log one record at a time. A torn tail ends the log; damage in the middle is an error.
 class LogReader {
  public:
-  /// Throws InputError when the file cannot be read or is no log; an empty one is one.
-  explicit LogReader(const std::filesystem::path& path);
+  /// Begins at byte `from`, where a record starts. Throws InputError when the file cannot be read or is no log; an
+  /// empty one is one.
+  explicit LogReader(const std::filesystem::path& path, std::int64_t from = 0);
   ~LogReader();
   /// The next record; nothing at the end. Throws InputError naming file and offset when the log is damaged in the
   /// middle, and where it goes on (see resync).

@@ -23,8 +23,9 @@ class DatabaseUnavailable : public std::runtime_error {
 };
 
 /// To be called on every file that is opened: it may come from elsewhere. Its schema is not trusted to call functions,
-/// values are at most 64 MiB, and views, triggers, virtual tables and generated columns, which ours never have and
-/// which could run for ever, are refused. Throws SQLite::Exception.
+/// values are at most 64 MiB, and triggers, virtual tables, generated columns and views, which could run for ever, are
+/// refused, but for views with the names of those in run.db, which are for people: no program of ours asks them. Throws
+/// SQLite::Exception.
 void distrust(SQLite::Database& database);
 
 /// Reads every page of a database and every entry of its indices, without changing it. The error says what is wrong: no

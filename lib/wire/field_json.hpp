@@ -1,6 +1,6 @@
 #pragma once
 // Values and tables of fields (base/fields.hpp) as JSON. Designs, patterns, kinds of test, fidelities and loadings are
-// their texts; what is absent is null, and so is a struct whose holds_nothing() says so. SI units, as everywhere.
+// their texts; what is absent is null, and so is a struct whose FieldsOf has a holds_nothing() that says so. SI units, as everywhere.
 
 #include <optional>
 #include <string>
@@ -43,6 +43,10 @@ concept IsSequence =
   requires !requires { typename T::mapped_type; };
 };
 
+/// A struct of which a value may say that there is nothing in it.
+template <class T>
+concept kMayHoldNothing = requires(const T& value) { FieldsOf<T>::holds_nothing(value); };
+
 template <class T>
 Json json_of(const T& value);
 
@@ -73,8 +77,8 @@ Json json_of(const T& value) {
   } else if constexpr (HasText<T>) {
     return text_of(value);
   } else if constexpr (HasFields<T>) {
-    if constexpr (requires { value.holds_nothing(); }) {
-      if (value.holds_nothing()) return nullptr;
+    if constexpr (kMayHoldNothing<T>) {
+      if (FieldsOf<T>::holds_nothing(value)) return nullptr;
     }
     Json object = Json::object();
     FieldJson fields(object);

@@ -108,6 +108,7 @@ struct FieldsOf<sysid::PredictionErrors> {
     field("toughness_max", m.toughness_max, kError);
     field("toughness_spearman", m.toughness_spearman, Range{-1.000001, 1.000001});
   }
+  static bool holds_nothing(const sysid::PredictionErrors& m) { return m.modulus_count == 0 && m.toughness_count == 0; }
 };
 
 template <>

@@ -7,9 +7,9 @@
 
 #include "analyser/analyser_core.hpp"
 #include "analyser/works.hpp"
+#include "run/run_database.hpp"
 #include "runtime/node_main.hpp"
 #include "runtime/work_pool.hpp"
-#include "store/run_database.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -21,7 +21,7 @@ runtime::MakeExecutor make_threads(const runtime::NodeOptions& options) {
   const std::filesystem::path journal = options.node_dir() / "journal.lcm";
   // A first start: a journal that has begun would tell of a file that is lost.
   if (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
-    store::RunDatabase(options.run_dir / "run.db");
+    run::RunDatabase(options.run_dir / "run.db");
   return [run_dir = options.run_dir, threads = options.threads > 0 ? options.threads : 1](std::function<void()> wake) {
     return std::make_unique<runtime::WorkPool>(work_functions(run_dir), threads, std::move(wake));
   };

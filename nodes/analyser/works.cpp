@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "analyser/diagnosis_work.hpp"
-#include "analyser/run_tables.hpp"
 #include "base/files.hpp"
 #include "report/report.hpp"
+#include "run/rebuild.hpp"
+#include "run/run.hpp"
 #include "runtime/journal.hpp"
-#include "store/run_database.hpp"
-#include "store/run_record.hpp"
 
 namespace nacre::analyser {
 
@@ -20,23 +19,23 @@ std::string store_spec(const std::string& channel, const std::string& payload) {
 }
 
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
-  const std::shared_ptr<store::RunDatabase> database =
-      open_run_database(run_dir, [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); });
+  const std::shared_ptr<run::RunDatabase> database =
+      run::open_run_database(run_dir, [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); });
+  const auto reader = std::make_shared<run::Run>(run_dir);
   return {
       {"store",
        [database](const std::string& spec) -> std::string {
          const auto fields = runtime::unpack(spec);
          if (!fields || fields->size() != 2) throw std::logic_error("the spec of a store does not read back");
-         database->project((*fields)[0], (*fields)[1]);
+         database->keep((*fields)[0], (*fields)[1]);
          return "kept";
        }},
       {"diagnose", diagnose_work},
       {"report",
-       [database, run_dir](const std::string& round) -> std::string {
+       [database, reader, run_dir](const std::string& round) -> std::string {
          database->checkpoint();
-         write_file_atomically(
-             run_dir / "report.html",
-             report::render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
+         write_file_atomically(run_dir / "report.html",
+                               report::render_report(reader->record_with_gamuts(), run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);
        }},
   };

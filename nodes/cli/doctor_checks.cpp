@@ -17,11 +17,11 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
+#include "run/run_schema.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/process.hpp"
 #include "runtime/version.hpp"
 #include "store/database_care.hpp"
-#include "store/run_schema.hpp"
 #include "store/simulation_cache.hpp"
 #include "wire/convert.hpp"
 
@@ -214,10 +214,10 @@ Finding check_run(const fs::path& run) {
   const std::string remedy = "nacre rebuild --run " + shell_word(run);
   if (const auto fault = fault_of(check, file, remedy)) return *fault;
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion) return {check, CheckStatus::good, file.string() + " is whole"};
+  if (version == run::kRunSchemaVersion) return {check, CheckStatus::good, file.string() + " is whole"};
   return {
       check, CheckStatus::remark,
-      fmt::format("{} has schema version {}, this program writes {}", file.string(), version, store::kRunSchemaVersion),
+      fmt::format("{} has schema version {}, this program writes {}", file.string(), version, run::kRunSchemaVersion),
       remedy};
 }
 

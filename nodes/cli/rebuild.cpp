@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <string>
 
-#include "analyser/run_tables.hpp"
 #include "base/counted.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "output.hpp"
+#include "run/rebuild.hpp"
 #include "run_access.hpp"
 #include "runtime/folder_lock.hpp"
 #include "runtime/run_copy.hpp"
@@ -56,7 +56,7 @@ int rebuild(const RebuildOptions& options) {
   if (!options.cache.empty()) return rebuild_cache(options);
   const RunAccess run = open_run(options.run);
   const runtime::FolderLock lock(run.folder / "nodes" / "analyser");  // against an analyser that starts meanwhile
-  const analyser::Rebuilt rebuilt = analyser::rebuild_run_database(run.folder);
+  const run::Rebuilt rebuilt = run::rebuild_run_database(run.folder);
   const std::string database = (run.folder / "run.db").string();
   if (rebuilt.torn_bytes > 0)
     warn(fmt::format("the analyser's journal ends in a torn record of {} bytes: what it said is not in {}",

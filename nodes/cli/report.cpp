@@ -11,9 +11,9 @@
 #include "output_path.hpp"
 #include "report/paper.hpp"
 #include "report/report.hpp"
+#include "run/run.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
-#include "store/run_record.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -33,7 +33,7 @@ int report(const Options& options) {
     return 1;
   }
   if (options.render)
-    write_file_atomically(page, report::render_report(store::read_run_record(database), run.manifest.run_id));
+    write_file_atomically(page, report::render_report(run::Run(run.folder).record_with_gamuts(), run.manifest.run_id));
   const std::filesystem::path thesis = shipped_folder() / "data" / "thesis";
   if (!std::filesystem::exists(thesis))
     remark("data/thesis was not found, neither beside the program nor here: the thesis' figures are left out");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/expected.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "families/families_file.hpp"
@@ -35,36 +36,9 @@ dashboard::Laboratory RunDesk::laboratory() {
   return {std::move(view.facts), std::move(view.open_proposal)};
 }
 
-std::optional<material::ParameterSet> RunDesk::model(int round) {
-  std::optional<material::ParameterSet> parameters;
-  for (const std::string& payload : sent_by_validation_agent(run_, "PARAMETERS")) {
-    const auto model = wire::read<wire::AdoptedModel>(payload);
-    if (model && model->round == round) parameters = model->parameters;
-  }
-  return parameters;
-}
-
-std::optional<material::ParameterSet> RunDesk::family_model(const std::string& family) {
-  std::optional<material::ParameterSet> parameters;
-  for (const std::string& payload : sent_by_validation_agent(run_, "FAMILY")) {
-    const auto stated = wire::read<wire::CalibratedFamily>(payload);
-    if (stated && stated->name == family) parameters = stated->parameters;
-  }
-  return parameters;
-}
-
 void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) {
   make_folder(folder.string());
   write_file_atomically(folder / "families.toml", families::to_toml(families));
-}
-
-std::optional<wire::Diagnosis> RunDesk::diagnosis(int round) {
-  std::optional<wire::Diagnosis> newest;
-  for (const std::string& payload : received_by_validation_agent(run_, "DIAGNOSIS")) {
-    auto diagnosis = wire::read<wire::Diagnosis>(payload);
-    if (diagnosis && diagnosis->round == round) newest = std::move(*diagnosis);
-  }
-  return newest;
 }
 
 Delivery RunDesk::hand_in(const runtime::Message& message) {

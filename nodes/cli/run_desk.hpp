@@ -11,9 +11,6 @@ class RunDesk : public dashboard::Desk {
  public:
   explicit RunDesk(RunAccess run);
   dashboard::Laboratory laboratory() override;
-  std::optional<material::ParameterSet> model(int round) override;
-  std::optional<material::ParameterSet> family_model(const std::string& family) override;
-  std::optional<wire::Diagnosis> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
   dashboard::Delivery enter(const measurement::SpecimenRecord& specimen) override;

@@ -1,8 +1,8 @@
 // SQLite files from elsewhere: a run's tables, a cache, what a damaged one still holds.
 
 #include "fuzz.hpp"
+#include "run/run.hpp"
 #include "store/database_care.hpp"
-#include "store/run_record.hpp"
 #include "store/simulation_cache.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -15,7 +15,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   std::filesystem::remove(saved);
   (void)store::check_database(file);
-  fuzz::expect_input_errors_only([&] { (void)store::read_run_record(file); });
+  fuzz::expect_input_errors_only([&] {
+    run::Run run(file.parent_path(), file.filename());
+    (void)run.record_with_gamuts();
+  });
   fuzz::expect_input_errors_only([&] { (void)store::salvage_simulations(file, saved); });
   fuzz::expect_input_errors_only([&] {
     const store::SimulationCache cache(file);

@@ -11,8 +11,8 @@
 #include "film/film_file.hpp"
 #include "game/scenario.hpp"
 #include "material/parameter_file.hpp"
+#include "run/run_database.hpp"
 #include "runtime/journal.hpp"
-#include "store/run_database.hpp"
 #include "store/simulation_cache.hpp"
 #include "wire/channels.hpp"
 
@@ -61,8 +61,8 @@ void add_journal(const Corpus& corpus) {
 void add_databases(const Corpus& corpus) {
   const fs::path file = fs::temp_directory_path() / fmt::format("nacre-seeds-{}.db", ::getpid());
   {
-    store::RunDatabase run(file);
-    for (const auto& [channel, payload] : wire::samples::payloads()) run.project(channel, payload);
+    run::RunDatabase run(file);
+    for (const auto& [channel, payload] : wire::samples::payloads()) run.keep(channel, payload);
     run.checkpoint();
   }
   corpus.add("database", "run", read_file(file));

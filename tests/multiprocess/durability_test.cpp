@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analyser/run_tables.hpp"
 #include "base/files.hpp"
 #include "game/scenario.hpp"
 #include "played_game.hpp"
 #include "processes.hpp"
 #include "program_test.hpp"
+#include "run/rebuild.hpp"
+#include "run/run_schema.hpp"
 #include "runtime/run_copy.hpp"
 #include "runtime/run_folder.hpp"
 #include "short_game.hpp"
 #include "store/database_care.hpp"
-#include "store/run_schema.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre {
@@ -150,7 +150,7 @@ TEST_F(Durability, ADamagedDatabaseIsSaidAndMadeAnewWhenTheAnalyserStarts) {
   ASSERT_FALSE(store::check_database(copy_ / "run.db"));
   std::string said;
   {
-    const auto database = analyser::open_run_database(copy_, [&](const std::string& text) { said += text; });
+    const auto database = run::open_run_database(copy_, [&](const std::string& text) { said += text; });
   }
   EXPECT_THAT(said, AllOf(HasSubstr("run.db: is damaged"), HasSubstr("made anew")));
   EXPECT_TRUE(store::check_database(copy_ / "run.db"));
@@ -161,13 +161,13 @@ TEST_F(Durability, ADamagedDatabaseIsSaidAndMadeAnewWhenTheAnalyserStarts) {
 TEST_F(Durability, ADatabaseOfAnotherVersionIsMigratedByMakingItAnew) {
   const std::string before = content(copy_ / "run.db");
   SQLite::Database(((copy_ / "run.db").string()), SQLite::OPEN_READWRITE)
-      .exec("DROP TABLE crack; PRAGMA user_version = 1");
+      .exec("DROP TABLE samples; PRAGMA user_version = 1");
   std::string said;
   {
-    const auto database = analyser::open_run_database(copy_, [&](const std::string& text) { said += text; });
+    const auto database = run::open_run_database(copy_, [&](const std::string& text) { said += text; });
   }
   EXPECT_THAT(said, HasSubstr("schema version 1"));
-  EXPECT_EQ(store::schema_version(copy_ / "run.db"), store::kRunSchemaVersion);
+  EXPECT_EQ(store::schema_version(copy_ / "run.db"), run::kRunSchemaVersion);
   EXPECT_EQ(content(copy_ / "run.db"), before);
 }
 
@@ -175,7 +175,7 @@ TEST_F(Durability, AWholeDatabaseIsLeftAlone) {
   const auto written = fs::last_write_time(copy_ / "run.db");
   bool is_silent = true;
   {
-    const auto database = analyser::open_run_database(copy_, [&](const std::string&) { is_silent = false; });
+    const auto database = run::open_run_database(copy_, [&](const std::string&) { is_silent = false; });
   }
   EXPECT_TRUE(is_silent);
   EXPECT_EQ(fs::last_write_time(copy_ / "run.db"), written);

@@ -9,10 +9,10 @@
 #include "game/family_errors.hpp"
 #include "played_game.hpp"
 #include "program_test.hpp"
+#include "run/run.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/round_history.hpp"
 #include "short_game.hpp"
-#include "store/run_record.hpp"
 
 namespace nacre {
 namespace {
@@ -111,13 +111,13 @@ TEST_F(FamilyStageOfProcesses, TheResultHoldsTheErrorsOfBothModels) {
 }
 
 TEST_F(FamilyStageOfProcesses, TheDatabaseHoldsWhatWasSaid) {
-  const store::RunRecord run = store::read_run_record(undisturbed_->folder() / "run.db");
+  const run::RunRecord run = run::Run(undisturbed_->folder()).record_with_gamuts();
   const auto stated = families(true);
   ASSERT_EQ(run.families.size(), stated.size());
   for (std::size_t i = 0; i < stated.size(); ++i) {
     EXPECT_EQ(run.families[i].stated.designs, stated[i].designs);
     EXPECT_TRUE(run.families[i].stated.is_validated);
-    EXPECT_EQ(run.families[i].gamut.size(), static_cast<std::size_t>(stated[i].samples));
+    EXPECT_EQ(run.families[i].gamut->patterns.size(), static_cast<std::size_t>(stated[i].samples));
     EXPECT_GT(stated[i].samples, 0);
   }
 }

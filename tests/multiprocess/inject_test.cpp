@@ -9,7 +9,7 @@
 #include "measurement/write_set.hpp"
 #include "persons_game.hpp"
 #include "program_test.hpp"
-#include "store/run_record.hpp"
+#include "run/run.hpp"
 
 namespace nacre {
 namespace {
@@ -226,7 +226,7 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   for (const wire::ProposedDesign& next : second.designs) {
     EXPECT_NE(next.design, refused_.design) << "what was refused is not proposed again";
   }
-  for (const store::MeasuredSpecimen& kept : store::read_run_record(person_->run() / "run.db").specimens) {
+  for (const run::MeasuredSpecimen& kept : run::Run(person_->run()).record()->specimens) {
     EXPECT_EQ(kept.record.valid, kept.record.specimen != outlier_name) << kept.record.specimen;
   }
 }

@@ -71,13 +71,38 @@ export async function openDashboard(run, ...options) {
   return dashboard;
 }
 
+/** A GAMUT of `count` random patterns: `sound`, another one of `samples` patterns, with its content replaced. */
+function gamutMessage(sound, samples, round, chunk, count) {
+  const head = sound.subarray(0, sound.length - 24 * samples - 17); // fingerprint and blank header
+  const body = Buffer.alloc(17 + 24 * count);
+  body.writeInt32BE(round, 0);
+  body.writeInt8(sound.readInt8(head.length + 4), 4); // fidelity
+  body.writeInt32BE(chunk, 5);
+  body.writeInt32BE(chunk + 1, 9);
+  body.writeInt32BE(count, 13);
+  for (let i = 0; i < count; ++i) {
+    body.writeBigInt64BE(BigInt(Math.floor(Math.random() * 2 ** 53)) * 4n, 17 + 8 * i);
+    body.writeDoubleBE(2e9 * Math.random(), 17 + 8 * (count + i));
+    body.writeDoubleBE(8e5 * Math.random() * Math.random(), 17 + 8 * (2 * count + i));
+  }
+  return Buffer.concat([head, body]);
+}
+
 /** A copy of a finished run whose last gamut has `count` patterns more. */
 export function withManyPatterns(run, count) {
   const copy = `${run}-large`;
   execFileSync("cp", ["-r", run, copy]);
-  const statement = `WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < ${count})
-    INSERT OR IGNORE INTO gamut SELECT (SELECT max(round) FROM gamut), printf('%014x', abs(random()) & 36028797018963967),
-    2e9 * abs(random() % 1000003) / 1000003.0, 8e5 * abs(random() % 1000003) / 1000003.0 * (abs(random() % 1000003) / 1000003.0) FROM n;`;
-  execFileSync("sqlite3", [join(copy, "run.db"), statement]);
+  const database = join(copy, "run.db");
+  const newest = `SELECT round, hex(payload), (SELECT count(*) FROM samples WHERE message = id)
+    FROM messages WHERE channel = 'GAMUT' ORDER BY round DESC LIMIT 1;`;
+  const [round, hex, samples] = execFileSync("sqlite3", [database, newest], { encoding: "utf8" }).trim().split("|");
+  const most = 1000; // of a message
+  const inserts = Array.from({ length: Math.ceil(count / most) }, (_, i) => {
+    const size = Math.min(most, count - i * most);
+    const payload = gamutMessage(Buffer.from(hex, "hex"), Number(samples), Number(round), 1000 + i, size);
+    return `INSERT INTO messages (channel, round, hash, payload, content)
+      VALUES ('GAMUT', ${round}, 'made-up-${i}', X'${payload.toString("hex")}', '{}');`;
+  });
+  execFileSync("sqlite3", [database], { input: `BEGIN;${inserts.join("\n")}COMMIT;` });
   return copy;
 }

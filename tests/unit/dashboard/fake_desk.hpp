@@ -12,15 +12,6 @@ namespace nacre::dashboard {
 class FakeDesk : public Desk {
  public:
   Laboratory laboratory() override { return picture; }
-  std::optional<material::ParameterSet> model(int round) override {
-    ++models_read;
-    return round == 0 ? std::optional(material::default_parameters()) : std::nullopt;
-  }
-  std::optional<material::ParameterSet> family_model(const std::string& family) override {
-    ++models_read;
-    return family == "family-2" ? std::optional(material::default_parameters()) : std::nullopt;
-  }
-  std::optional<wire::Diagnosis> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
   Delivery enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
@@ -34,7 +25,6 @@ class FakeDesk : public Desk {
   }
 
   Laboratory picture;
-  int models_read = 0;  ///< a real desk reads a journal each time
   std::vector<NodeReport> reports;
   Delivery answer = Delivery::accepted;
   std::optional<std::string> reason_against;

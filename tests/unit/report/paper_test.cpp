@@ -20,8 +20,8 @@ using testing::Not;
 
 const std::filesystem::path kThesis = std::filesystem::path(NACRE_SOURCE_DIR) / "data" / "thesis";
 
-store::RecordedFamily family(int number, bool over_fits) {
-  store::RecordedFamily family;
+run::FamilyRecord family(int number, bool over_fits) {
+  run::FamilyRecord family;
   family.stated.name = "family-" + std::to_string(number + 1);
   family.stated.number = number;
   family.stated.count = 2;
@@ -33,7 +33,12 @@ store::RecordedFamily family(int number, bool over_fits) {
     const double own = is_seed ? 1.01 : over_fits ? 1.6 : 1.1;  // the global model is off by a third everywhere
     family.stated.designs.push_back({patterns[i], is_seed, {1.5e9, 4e5}, {1.6e9, 4e5 * 1.33}, {1.5e9, 4e5 * own}});
   }
-  for (const pattern::Pattern& p : patterns) family.gamut.push_back({p, sample::true_performance(p)});
+  run::Gamut gamut;
+  for (const pattern::Pattern& p : patterns) {
+    gamut.patterns.push_back(p.bits());
+    gamut.performances.push_back(sample::true_performance(p));
+  }
+  family.gamut = std::make_shared<const run::Gamut>(std::move(gamut));
   return family;
 }
 
@@ -43,19 +48,19 @@ PaperSource source(bool stage = true) {
   source.run = sample::run();
   source.thesis = game::read_thesis_tables(kThesis);
   for (const auto& [number, round] : source.run.rounds) {
-    source.searches.push_back({number, 0, round.gamut});
+    source.searches.push_back({number, 0, gamut_of(round).performances});
     for (const auto& [design, simulation] : round.simulated)
-      source.predictions[number][design] = {simulation.performance.modulus_pa, simulation.performance.toughness_pa};
+      source.predictions[number][design] = {simulation.modulus_pa, simulation.toughness_pa};
   }
   source.predictions[0]["rigid"] = {2.66e9, 7.5e4};
   if (!stage) return source;
   source.run.families = {family(0, true), family(1, false)};
-  for (const store::RecordedFamily& each : source.run.families)
+  for (const run::FamilyRecord& each : source.run.families)
     source.groups.push_back({each.stated.name, {each.stated.designs[0].pattern, each.stated.designs[1].pattern}});
   SubfamilyMap map{.family = "family-1", .seed = source.groups[0].seeds[0].key(), .points = {}};
   for (int i = 0; i < 12; ++i) {
     MapPoint& point = map.points.emplace_back();
-    point.pattern = source.run.families[0].gamut[i % 6].pattern;
+    point.pattern = pattern::Pattern(source.run.families[0].gamut->patterns[i % 6]);
     point.source = i == 0 ? "seed" : i < 10 ? "sampled" : "interpolated";
     point.x = i % 4;
     point.y = 0.3 * i;

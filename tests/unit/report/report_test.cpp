@@ -77,17 +77,17 @@ TEST(Report, BeginsWithTheBestDesignAndItsGainOverMixtures) {
 }
 
 TEST(Report, WithoutMixturesTheToughestPatternIsCalledThat) {
-  store::RunRecord run = sample::run();
-  for (auto& [number, round] : run.rounds) round.benchmark.clear();
+  run::RunRecord run = sample::run();
+  for (auto& [number, round] : run.rounds) round.model->benchmark.clear();
   const std::string head = head_of(render_report(run, "a-run"));
   EXPECT_THAT(head, AllOf(HasSubstr("The toughest pattern; no mixture of equal stiffness has been measured"),
                           Not(HasSubstr("times the toughness of a mixture of equal"))));
 }
 
 TEST(Report, AGameWithoutAGainSaysSo) {
-  store::RunRecord run = sample::run();
+  run::RunRecord run = sample::run();
   for (auto& [number, round] : run.rounds)
-    for (optimize::Performance& mixture : round.benchmark) mixture.toughness_pa *= 10.0;
+    for (optimize::Performance& mixture : round.model->benchmark) mixture.toughness_pa *= 10.0;
   EXPECT_THAT(head_of(render_report(run, "a-run")), HasSubstr("No pattern beats a mixture yet: the best has 0."));
 }
 
@@ -125,7 +125,7 @@ TEST(Report, HeadSaysWhereTheGameStands) {
 }
 
 TEST(Report, TinyRunSaysThatItsFiguresMeanNothing) {
-  store::RunRecord run = sample::run(1);
+  run::RunRecord run = sample::run(1);
   EXPECT_THAT(render_report(run, "r"), Not(HasSubstr("mean nothing")));
   for (auto& [number, round] : run.rounds) round.summary->fidelity = tester::Fidelity::tiny;
   const std::string page = render_report(run, "r");
@@ -133,31 +133,42 @@ TEST(Report, TinyRunSaysThatItsFiguresMeanNothing) {
 }
 
 TEST(Report, ASpecimenThatNamesNoOrderHasNoRound) {
-  store::RunRecord run = sample::run(1);
-  for (store::MeasuredSpecimen& m : run.specimens) m.round = -1;
+  run::RunRecord run = sample::run(1);
+  for (run::MeasuredSpecimen& m : run.specimens) m.round = -1;
   EXPECT_THAT(section_of(render_report(run, "r"), "specimens"),
               AllOf(HasSubstr("<td>–</td>"), Not(HasSubstr("not ordered"))));
 }
 
 TEST(Report, HostileTextsDoNotBecomeMarkup) {
   const std::string evil = "</style><script>alert(1)</script>\"'><img src=x onerror=alert(1)>&amp;\x01";
-  store::RunRecord run = sample::run(1);
+  run::RunRecord run = sample::run(1);
   for (auto& [number, round] : run.rounds) {
     round.summary->decided_by = evil;
-    round.diagnosis =
-        store::RecordedDiagnosis{evil, evil, {{evil, evil, 1.0, 0.5, 2.0}}, {{evil, evil, 1.0, 0.5, 0.1}}, {}, {}};
-    round.proposals.push_back({evil, evil, {1e9, 1e6}});
-    round.simulated[evil] = round.simulated.begin() == round.simulated.end() ? store::RecordedSimulation{}
-                                                                             : round.simulated.begin()->second;
-    round.parameters["extension." + evil] = 1.0;
+    wire::Diagnosis& diagnosis = round.diagnosis.emplace();
+    diagnosis.verdict = diagnosis.summary = evil;
+    diagnosis.effects.emplace_back().name = diagnosis.effects.front().unit = evil;
+    diagnosis.candidates.emplace_back().name = diagnosis.candidates.front().status = evil;
+    round.proposals.push_back({.design = pattern::Mixture{0.65}, .reason = evil});
+    round.simulated[evil] =
+        round.simulated.begin() == round.simulated.end() ? wire::SimulatedDesign{} : round.simulated.begin()->second;
   }
-  for (store::MeasuredSpecimen& m : run.specimens) m.record.note = m.record.batch = evil;
+  for (run::MeasuredSpecimen& m : run.specimens) m.record.note = m.record.batch = evil;
   run.specimens.front().record.specimen = evil;
   const std::string page = render_report(run, evil);
   EXPECT_THAT(page, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<img")), Not(HasSubstr("\x01")),
                           HasSubstr("&lt;script&gt;")));
   EXPECT_EQ(count_of(page, "</style>"), 1);
   EXPECT_EQ(fault_of_markup(page), "");
+}
+
+TEST(Report, NoDiagnosisIsAwaitedWhereTheScenarioTurnsItOff) {
+  run::RunRecord run = sample::run(1);
+  for (auto& [number, round] : run.rounds) round.diagnosis.reset();
+  EXPECT_THAT(head_of(render_report(run, "r")), HasSubstr("no diagnosis yet"));
+  run.is_diagnosed = false;
+  const std::string page = render_report(run, "r");
+  EXPECT_THAT(head_of(page), AllOf(Not(HasSubstr("no diagnosis yet")), HasSubstr("turns the diagnosis off")));
+  EXPECT_THAT(section_of(page, "diagnosis"), Not(HasSubstr("Still awaited")));
 }
 
 TEST(Report, PageReachesForNothingOutsideItself) {
@@ -187,18 +198,18 @@ TEST(Report, GainOfADiagnosisIsSaidByItsSummaryAlone) {
 }
 
 TEST(Report, AMisfitOfTheCalibrationStandsBesideAVerdictThatFindsNothing) {
-  store::RunRecord run = sample::run();
-  store::RoundRecord& newest = run.rounds.rbegin()->second;
+  run::RunRecord run = sample::run();
+  run::RoundRecord& newest = run.rounds.rbegin()->second;
   newest.diagnosis->verdict = "base_sufficient";
   EXPECT_THAT(render_report(run, "r"), Not(HasSubstr("own fit does not explain")));
-  newest.modulus_fit = {.count = 12, .freedom = 8, .chi_squared = 1223.4, .p_value = 1e-9};
+  newest.model->provenance.modulus_fit = {.count = 12, .freedom = 8, .chi_squared = 1223.4, .p_value = 1e-9};
   const std::string page = render_report(run, "r"), head = page.substr(0, page.find("</header>"));
   EXPECT_THAT(head, HasSubstr("does not explain E (chi squared 1223 at 8 degrees of freedom)"));
   EXPECT_THAT(section_of(page, "diagnosis"), HasSubstr("does not explain E"));
 }
 
 TEST(Report, InvalidSpecimensAreShownButCountNowhere) {
-  store::RunRecord run = sample::run(1);
+  run::RunRecord run = sample::run(1);
   measurement::SpecimenRecord& record = run.specimens.front().record;
   ASSERT_TRUE(record.modulus_pa);
   record.modulus_pa = 77.7e9;
@@ -214,7 +225,7 @@ TEST(Report, InvalidSpecimensAreShownButCountNowhere) {
 }
 
 TEST(Report, ProposalsShowTheirPictureReasonAndMeasurement) {
-  store::RunRecord run = sample::run(1);
+  run::RunRecord run = sample::run(1);
   run.rounds.at(1).summary->last = false;
   const std::string proposals = section_of(render_report(run, "r"), "proposals");
   EXPECT_EQ(count_of(proposals, "<svg class=\"unit\" viewBox=\"0 0 20 20\""), 8);

@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 #include "pattern/random_pattern.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
 namespace nacre::report::sample {
 
@@ -40,11 +40,11 @@ inline tester::Curve curve(const optimize::Performance& p, double failure) {
   return curve;
 }
 
-inline store::MeasuredSpecimen specimen(const pattern::Design& design, const optimize::Performance& truth,
-                                        tester::TestKind test, int round, int replicate) {
+inline run::MeasuredSpecimen specimen(const pattern::Design& design, const optimize::Performance& truth,
+                                      tester::TestKind test, int round, int replicate) {
   RandomStream own(static_cast<std::uint64_t>(replicate), design.name() + std::string(tester::to_string(test)));
-  store::MeasuredSpecimen m;
-  m.round = round;
+  run::MeasuredSpecimen m;
+  m.round = m.measured_in = round;
   m.record.specimen =
       fmt::format("r{}-{}-{}-{}", round, design.name().substr(0, 14), tester::to_string(test), replicate);
   m.record.design = design;
@@ -62,7 +62,7 @@ inline store::MeasuredSpecimen specimen(const pattern::Design& design, const opt
   return m;
 }
 
-inline void measure(store::RunRecord& run, const pattern::Pattern& pattern, int round) {
+inline void measure(run::RunRecord& run, const pattern::Pattern& pattern, int round) {
   for (int replicate = 1; replicate <= 3; ++replicate) {
     for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness}) {
       run.specimens.push_back(specimen(pattern, true_performance(pattern), test, round, replicate));
@@ -70,24 +70,39 @@ inline void measure(store::RunRecord& run, const pattern::Pattern& pattern, int 
   }
 }
 
-inline store::RecordedDiagnosis diagnosis(int round) {
-  store::RecordedDiagnosis d;
+inline wire::DiagnosedCandidate candidate(const char* name, const char* status, double statistic, double p,
+                                          double absorption) {
+  wire::DiagnosedCandidate c;
+  c.name = name;
+  c.status = status;
+  c.statistic = statistic;
+  c.p_family_wise = p;
+  c.absorption = absorption;
+  return c;
+}
+
+inline wire::Diagnosis diagnosis(int round) {
+  wire::Diagnosis d;
   d.verdict = round < 2 ? "ambiguous" : "named";
   d.summary = round < 2 ? "Something is wrong that droplet_mixing and machine_compliance explain equally well."
                         : "The testing machine gives way: machine_compliance explains the misfit.";
-  d.candidates = {{"machine_compliance", "in_set", 41.3, 0.0005, 0.31},
-                  {"droplet_mixing", round < 2 ? "in_set" : "excluded", 22.0, 0.012, 0.62},
-                  {"interface_anisotropy", "invisible", 0.4, 0.91, 0.97}};
+  d.candidates = {candidate("machine_compliance", "in_set", 41.3, 0.0005, 0.31),
+                  candidate("droplet_mixing", round < 2 ? "in_set" : "excluded", 22.0, 0.012, 0.62),
+                  candidate("interface_anisotropy", "invisible", 0.4, 0.91, 0.97)};
   if (round >= 2) {
-    d.effects = {{"machine_compliance", "1/Pa", 4.2e-11, 3.1e-11, 5.6e-11}};
-    d.held_out_error_before = 0.083;
-    d.held_out_error_after = 0.034;
+    wire::DiagnosedEffect& effect = d.effects.emplace_back();
+    effect.name = "machine_compliance";
+    effect.unit = "1/Pa";
+    effect.parameter = 4.2e-11;
+    effect.interval_low = 3.1e-11;
+    effect.interval_high = 5.6e-11;
+    d.gain = wire::DiagnosedGain{.held_out_error_before = 0.083, .held_out_error_after = 0.034};
   }
   return d;
 }
 
-inline store::RunRecord run(int last_round = 3) {
-  store::RunRecord run;
+inline run::RunRecord run(int last_round = 3) {
+  run::RunRecord run;
   RandomStream random(7, "sample run");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(340, random);
   std::vector<pattern::Pattern> measured(patterns.begin(), patterns.begin() + 6);
@@ -95,28 +110,44 @@ inline store::RunRecord run(int last_round = 3) {
     if (last_round >= 1) measure(run, p, 1);
   }
   for (int n = 0; n <= last_round; ++n) {
-    store::RoundRecord& round = run.rounds[n];
-    for (const pattern::Pattern& p : patterns) round.gamut.push_back(predicted(p, n));
+    run::RoundRecord& round = run.rounds[n];
+    run::Gamut gamut;
+    for (const pattern::Pattern& p : patterns) {
+      gamut.patterns.push_back(p.bits());
+      gamut.performances.push_back(predicted(p, n));
+    }
+    round.gamut_count = static_cast<int>(gamut.patterns.size());
+    round.gamut = std::make_shared<const run::Gamut>(std::move(gamut));
+    wire::AdoptedModel& model = round.model.emplace();
     for (double f = 0.0; n > 0 && f <= 1.01; f += 0.1) {
-      round.benchmark.push_back(
+      model.benchmark.push_back(
           {1e6 * std::pow(10.0, 3.4 * std::min(1.0, f * 1.2)), (0.08 + 1.1 * f * (1.0 - f)) * 1e6});
     }
     for (int i = 0; i < 4; ++i) {
       const pattern::Pattern& p = patterns[40 + 70 * i + 11 * n];
+      const optimize::Performance expected = predicted(p, n);
       round.proposals.push_back(
-          {p.key(), fmt::format("radial bin {} of 4, on the second front; 84 pixels from its neighbours", i + 1),
-           predicted(p, n)});
+          {.design = p,
+           .modulus_pa = expected.modulus_pa,
+           .toughness_pa = expected.toughness_pa,
+           .reason = fmt::format("radial bin {} of 4, on the second front; 84 pixels from its neighbours", i + 1)});
       if (n < last_round) {
         measure(run, p, n + 1);
         measured.push_back(p);
       }
     }
     if (n >= 1) {
-      for (const pattern::Pattern& p : measured)
-        round.simulated[p.key()] = {predicted(p, n), "", curve(predicted(p, n), 0.045)};
+      for (const pattern::Pattern& p : measured) {
+        const optimize::Performance expected = predicted(p, n);
+        round.simulated[p.key()] = {.design = p,
+                                    .failure = "",
+                                    .modulus_pa = expected.modulus_pa,
+                                    .toughness_pa = expected.toughness_pa,
+                                    .curve = curve(expected, 0.045)};
+      }
       round.diagnosis = diagnosis(n);
     }
-    if (n >= 2) round.parameters["extension.machine_compliance"] = 4.2e-11;
+    if (n >= 2) model.parameters.extensions["machine_compliance"] = {4.2e-11};
     wire::RoundSummary s;
     s.round = n;
     s.fidelity = tester::Fidelity::full;

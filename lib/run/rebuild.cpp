@@ -1,11 +1,11 @@
-#include "analyser/run_tables.hpp"
+#include "run/rebuild.hpp"
 
 #include "base/result.hpp"
+#include "run/run_schema.hpp"
 #include "runtime/journal.hpp"
 #include "store/database_care.hpp"
-#include "store/run_schema.hpp"
 
-namespace nacre::analyser {
+namespace nacre::run {
 
 namespace fs = std::filesystem;
 
@@ -13,8 +13,8 @@ namespace {
 
 fs::path journal_of(const fs::path& run_dir) { return run_dir / "nodes" / "analyser" / "journal.lcm"; }
 
-/// Projects every message that the journal says was to be kept, in its order.
-Rebuilt project_journal(runtime::LogReader& reader, store::RunDatabase& database) {
+/// Keeps every message that the journal says was to be kept, in its order.
+Rebuilt keep_journal(runtime::LogReader& reader, RunDatabase& database) {
   Rebuilt rebuilt;
   while (const auto record = reader.next()) {
     if (record->channel != runtime::kComputeChannel) continue;
@@ -22,7 +22,7 @@ Rebuilt project_journal(runtime::LogReader& reader, store::RunDatabase& database
     if (!compute || compute->size() != 3 || (*compute)[1] != "store") continue;
     const auto message = runtime::unpack((*compute)[2]);
     if (!message || message->size() != 2) continue;
-    database.project((*message)[0], (*message)[1]);
+    database.keep((*message)[0], (*message)[1]);
     ++rebuilt.messages;
   }
   rebuilt.torn_bytes = reader.end().torn_bytes;
@@ -34,8 +34,8 @@ std::string fault_of(const fs::path& file) {
   if (!fs::exists(file)) return "it is missing";
   if (const auto whole = store::check_database(file); !whole) return whole.error().message;
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion) return "";
-  return fmt::format("it has schema version {}, this program writes {}", version, store::kRunSchemaVersion);
+  if (version == kRunSchemaVersion) return "";
+  return fmt::format("it has schema version {}, this program writes {}", version, kRunSchemaVersion);
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ Rebuilt rebuild_run_database(const fs::path& run_dir) {
   store::remove_database(anew);
   Rebuilt rebuilt;
   try {
-    store::RunDatabase database(anew);
-    rebuilt = project_journal(journal, database);
+    RunDatabase database(anew);
+    rebuilt = keep_journal(journal, database);
     database.checkpoint();
   } catch (...) {
     store::remove_database(anew);
@@ -60,8 +60,8 @@ Rebuilt rebuild_run_database(const fs::path& run_dir) {
   return rebuilt;
 }
 
-std::unique_ptr<store::RunDatabase> open_run_database(const fs::path& run_dir,
-                                                      const std::function<void(const std::string&)>& report) {
+std::unique_ptr<RunDatabase> open_run_database(const fs::path& run_dir,
+                                               const std::function<void(const std::string&)>& report) {
   const fs::path file = run_dir / "run.db", journal = journal_of(run_dir);
   if (fs::exists(journal) && fs::file_size(journal) > 0) {
     if (const std::string fault = fault_of(file); !fault.empty()) {
@@ -69,7 +69,7 @@ std::unique_ptr<store::RunDatabase> open_run_database(const fs::path& run_dir,
       report(fmt::format("{}: {}; made anew from {} messages of the journal", file.string(), fault, rebuilt.messages));
     }
   }
-  return std::make_unique<store::RunDatabase>(file);
+  return std::make_unique<RunDatabase>(file);
 }
 
-}  // namespace nacre::analyser
+}  // namespace nacre::run

@@ -1,4 +1,4 @@
-#include "store/measured_patterns.hpp"
+#include "run/measured_patterns.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include "base/statistics.hpp"
 #include "game/standings.hpp"
 
-namespace nacre::store {
+namespace nacre::run {
 
 std::optional<int> newest_round(const RunRecord& run) {
   return run.rounds.empty() ? std::nullopt : std::optional<int>(run.rounds.rbegin()->first);
@@ -26,17 +26,13 @@ bool is_over(const RunRecord& run) {
 }
 
 std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round) {
-  const int newest = newest_round(run).value_or(0);
-  // What belongs to no round yet counts for the one that is being measured, of which nothing else may be known.
-  const int measuring = std::max(newest, newest_closed_round(run).value_or(-1) + 1);
   std::vector<measurement::SpecimenRecord> known;
   std::map<std::string, int> first_round;
   for (const MeasuredSpecimen& specimen : run.specimens) {
-    if ((specimen.round < 0 ? newest : specimen.round) > round) continue;
-    const int measured_in = specimen.round < 0 ? measuring : specimen.round;
+    if (specimen.measured_in > round) continue;
     known.push_back(specimen.record);
-    const auto [place, is_new] = first_round.emplace(specimen.record.design.name(), measured_in);
-    if (!is_new) place->second = std::min(place->second, measured_in);
+    const auto [place, is_new] = first_round.emplace(specimen.record.design.name(), specimen.measured_in);
+    if (!is_new) place->second = std::min(place->second, specimen.measured_in);
   }
   std::vector<MeasuredPattern> patterns;
   for (const auto& [pattern, values] : game::measured_values(known)) {
@@ -52,4 +48,4 @@ std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round) 
   return patterns;
 }
 
-}  // namespace nacre::store
+}  // namespace nacre::run

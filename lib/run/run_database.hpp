@@ -1,6 +1,6 @@
 #pragma once
-// logs/RUN/run.db: the messages of a run as tables, for reports and for any SQLite tool. A projection: it can always be
-// made anew from the analyser's journal. Written by the analyser alone.
+// logs/RUN/run.db, written: the messages of a run, with views for any SQLite tool. It can always be made anew from the
+// analyser's journal (rebuild.hpp). Written by the analyser alone, read by Run.
 
 #include <filesystem>
 #include <memory>
@@ -11,7 +11,7 @@ namespace SQLite {
 class Database;
 }
 
-namespace nacre::store {
+namespace nacre::run {
 
 class RunDatabase {
  public:
@@ -20,9 +20,9 @@ class RunDatabase {
   explicit RunDatabase(const std::filesystem::path& path);
   ~RunDatabase();
 
-  /// Takes one message of the run (payload without header). The same message twice changes nothing; channels that are
-  /// not kept, and payloads that do not decode, are ignored. Throws InputError when the file cannot be written.
-  void project(const std::string& channel, const std::string& payload);
+  /// Takes one message of the run (payload without header). The same message twice changes nothing; payloads that do
+  /// not decode are ignored. Throws InputError when the file cannot be written.
+  void keep(const std::string& channel, const std::string& payload);
 
   /// Moves everything into the one file, so that a copy of it alone is whole.
   void checkpoint();
@@ -33,4 +33,4 @@ class RunDatabase {
   std::unique_ptr<SQLite::Database> database_;
 };
 
-}  // namespace nacre::store
+}  // namespace nacre::run

@@ -1,5 +1,5 @@
 #pragma once
-// run.db and the analyser's journal: the tables can always be made anew.
+// run.db and the analyser's journal: the database can always be made anew.
 
 #include <cstdint>
 #include <filesystem>
@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "store/run_database.hpp"
+#include "run/run_database.hpp"
 
-namespace nacre::analyser {
+namespace nacre::run {
 
 /// What a database was made anew from.
 struct Rebuilt {
@@ -24,7 +24,7 @@ Rebuilt rebuild_run_database(const std::filesystem::path& run_dir);
 
 /// Opens RUN/run.db. Where a journal tells that messages were kept before and the file is missing, damaged or of
 /// another version, it is made anew first, which `report` is told. Throws InputError.
-std::unique_ptr<store::RunDatabase> open_run_database(const std::filesystem::path& run_dir,
-                                                      const std::function<void(const std::string&)>& report);
+std::unique_ptr<RunDatabase> open_run_database(const std::filesystem::path& run_dir,
+                                               const std::function<void(const std::string&)>& report);
 
-}  // namespace nacre::analyser
+}  // namespace nacre::run

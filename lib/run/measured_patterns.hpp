@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "pattern/layout.hpp"
-#include "store/run_record.hpp"
+#include "run/run_record.hpp"
 
-namespace nacre::store {
+namespace nacre::run {
 
 /// A pattern with both E and T measured (standard conditions, valid specimens).
 struct MeasuredPattern {
@@ -18,8 +18,7 @@ struct MeasuredPattern {
   int round = 0;  ///< in which it was measured first
 };
 
-/// Patterns measured up to and including `round`, by pattern. Specimens that nobody ordered count from the newest round
-/// on.
+/// Patterns measured up to and including `round`, by pattern.
 std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round);
 
 /// Number of the newest round that anything is known of; nothing for an empty record.
@@ -29,4 +28,4 @@ std::optional<int> newest_closed_round(const RunRecord& run);
 /// Whether the last round is closed, and with it the family stage where there is one.
 bool is_over(const RunRecord& run);
 
-}  // namespace nacre::store
+}  // namespace nacre::run

@@ -1,0 +1,50 @@
+#pragma once
+// Messages in, the record of a run out: decoded once, in the order of their arrival.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "run/message_place.hpp"
+#include "run/run_record.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::run {
+
+class Recording {
+ public:
+  /// `id`: of the message, by which the chunks of gamuts are found again. What does not decode changes nothing.
+  void take(std::int64_t id, std::string_view channel, const std::string& payload);
+  /// Without gamuts.
+  RunRecord record() const;
+  /// Messages that hold the gamut of a round, or the variants of a family by number, by chunk.
+  std::vector<std::int64_t> gamut_messages(int round) const { return ids_of(gamuts_, round); }
+  std::vector<std::int64_t> variant_messages(int family) const { return ids_of(variants_, family); }
+
+ private:
+  struct Chunk {
+    std::int64_t id = 0;
+    int count = 0;
+  };
+  using Chunks = std::map<int, std::map<int, Chunk>>;  ///< by round or family, by chunk
+
+  void take(const wire::RoundSummary& summary);
+  void take(const wire::Measurement& measured);
+  void take(const wire::SimulateResult& response);
+  void take(const wire::Fracture& fracture);
+  void take(const wire::CalibratedFamily& family);
+  void take_review(const std::string& payload);
+  static std::vector<std::int64_t> ids_of(const Chunks& chunks, int number);
+  static int count_of(const Chunks& chunks, int number);
+
+  std::map<int, RoundRecord> rounds_;
+  std::map<int, FamilyRecord> families_;
+  std::map<std::string, MeasuredSpecimen> specimens_;
+  std::map<std::string, wire::Review> reviews_;  ///< that count, by specimen
+  Chunks gamuts_, variants_;
+  ClosedRounds closed_;
+};
+
+}  // namespace nacre::run

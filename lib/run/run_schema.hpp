@@ -1,0 +1,125 @@
+#pragma once
+// Tables and views of run.db. The views are for people: nacre itself never asks them, and store::distrust() knows their
+// names.
+
+namespace nacre::run {
+
+inline constexpr int kRunSchemaVersion = 4;
+
+/// `messages` holds what the analyser was sent and what it found, in that order. `payload`: the LCM encoding with blank
+/// header, `hash` its identity, `content` the same as JSON by the .lcm file, without the header and without columns of
+/// numbers (curves, cracks, gamuts); `reading`: what is read from a curve. `samples` are those of gamuts.
+inline constexpr const char* kRunTables = R"sql(
+  CREATE TABLE messages (
+    id INTEGER PRIMARY KEY, channel TEXT NOT NULL, round INTEGER, hash TEXT NOT NULL UNIQUE, payload BLOB NOT NULL,
+    content TEXT NOT NULL, reading TEXT
+  ) STRICT;
+  CREATE INDEX messages_of_channel ON messages (channel, round);
+  CREATE TABLE samples (
+    message INTEGER NOT NULL, pattern INTEGER NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL
+  ) STRICT;
+  CREATE INDEX samples_of_message ON samples (message);
+)sql";
+
+/// SI units; hypervolumes and gap in GPa MPa; errors relative. A ROUND that says `last` stands, whatever comes after.
+inline constexpr const char* kRoundsView = R"sql(
+  CREATE VIEW rounds AS
+  WITH closing AS (SELECT *, row_number() OVER (PARTITION BY round ORDER BY content->>'last' DESC, id DESC) AS place
+                   FROM messages WHERE channel = 'ROUND')
+  SELECT round, content->>'n_calibration' AS calibration_count,
+         content->>'measured_hypervolume_staircase' AS measured_hypervolume,
+         content->>'gamut_hypervolume_staircase' AS gamut_hypervolume,
+         content->>'hypervolume_error' AS hypervolume_error,
+         content->>'gap' AS gap, content->>'signed_gap' AS signed_gap,
+         content->>'$.held_out.modulus_mean' AS held_out_modulus_error,
+         content->>'$.held_out.toughness_mean' AS held_out_toughness_error,
+         content->>'$.after.modulus_mean' AS fitted_modulus_error,
+         content->>'$.after.toughness_mean' AS fitted_toughness_error,
+         (SELECT d.content->>'verdict' FROM messages d WHERE d.channel = 'DIAGNOSIS' AND d.round = closing.round
+          ORDER BY d.id DESC LIMIT 1) AS verdict,
+         content->>'equilibrium' AS equilibrium, content->>'last' AS last, content->>'decided_by' AS decided_by
+  FROM closing WHERE place = 1;
+)sql";
+
+/// The first MEASUREMENT of a name counts, and of its reviews the highest revision; "not valid" wins a tie. `round`: in
+/// which it was measured, whoever ordered it.
+inline constexpr const char* kSpecimensView = R"sql(
+  CREATE VIEW specimens AS
+  WITH first AS (SELECT *, row_number() OVER (PARTITION BY content->>'specimen' ORDER BY id) AS place
+                 FROM messages WHERE channel = 'MEASUREMENT'),
+       review AS (SELECT content, row_number() OVER (PARTITION BY content->>'specimen'
+                                                     ORDER BY content->>'revision' DESC, content->>'valid') AS place
+                  FROM messages WHERE channel = 'REVIEW')
+  SELECT first.content->>'specimen' AS specimen, first.reading->>'measured_in' AS round,
+         first.reading->>'design' AS design, first.reading->>'test' AS test,
+         first.content->>'$.conditions.orientation_deg' AS orientation_deg,
+         first.content->>'$.conditions.strain_rate_per_s' AS strain_rate_per_s,
+         first.content->>'$.conditions.thickness_mm' AS thickness_mm, first.reading->>'standard' AS standard,
+         first.content->>'batch' AS batch, first.content->>'print_order' AS print_order,
+         first.content->>'order_id' AS order_id, first.reading->>'modulus_pa' AS modulus_pa,
+         first.reading->>'toughness_pa' AS toughness_pa,
+         coalesce(review.content->>'valid', first.content->>'valid') AND first.reading->>'usable' AS valid,
+         coalesce(review.content->>'why', first.content->>'note') AS note, review.content->>'by' AS reviewed_by
+  FROM first LEFT JOIN review ON review.content->>'specimen' = first.content->>'specimen' AND review.place = 1
+  WHERE first.place = 1;
+)sql";
+
+/// Means of valid specimens under standard conditions; what was predicted when the design was proposed.
+inline constexpr const char* kDesignsView = R"sql(
+  CREATE VIEW designs AS
+  WITH proposed AS (SELECT m.round, d.value->>'design' AS design, d.value->>'modulus_pa' AS modulus_pa,
+                           d.value->>'toughness_pa' AS toughness_pa, d.value->>'reason' AS reason,
+                           row_number() OVER (PARTITION BY d.value->>'design' ORDER BY m.round, m.id) AS place
+                    FROM messages m, json_each(m.content, '$.designs') d WHERE m.channel = 'PROPOSAL'),
+       measured AS (SELECT design, min(round) AS round, count(*) AS specimens,
+                           avg(modulus_pa) FILTER (WHERE test = 'modulus') AS modulus_pa,
+                           avg(toughness_pa) FILTER (WHERE test = 'toughness') AS toughness_pa
+                    FROM specimens WHERE valid AND standard AND orientation_deg = 0 GROUP BY design),
+       name AS (SELECT design FROM proposed UNION SELECT design FROM measured)
+  SELECT name.design, proposed.round AS proposed_in, measured.round AS measured_in,
+         coalesce(measured.specimens, 0) AS specimens, measured.modulus_pa, measured.toughness_pa,
+         proposed.modulus_pa AS predicted_modulus_pa, proposed.toughness_pa AS predicted_toughness_pa, proposed.reason
+  FROM name LEFT JOIN proposed ON proposed.design = name.design AND proposed.place = 1
+            LEFT JOIN measured ON measured.design = name.design;
+)sql";
+
+/// `family`: whose variants they are; NULL: the gamut of the round.
+inline constexpr const char* kGamutView = R"sql(
+  CREATE VIEW gamut AS
+  SELECT m.round, (SELECT f.content->>'name' FROM messages f WHERE m.channel = 'FAMILY_GAMUT' AND f.channel = 'FAMILY'
+                   AND f.content->>'number' = m.content->>'number' LIMIT 1) AS family,
+         printf('%014x', s.pattern) AS pattern, s.modulus_pa, s.toughness_pa
+  FROM messages m JOIN samples s ON s.message = m.id;
+)sql";
+
+/// Pareto fronts of a round, stiffest first: `simulated`, and `measured` up to then (patterns alone).
+inline constexpr const char* kFrontsView = R"sql(
+  CREATE VIEW fronts AS
+  WITH points AS (SELECT round, 'simulated' AS kind, pattern AS design, modulus_pa, toughness_pa
+                  FROM gamut WHERE family IS NULL AND round IS NOT NULL
+                  UNION ALL
+                  SELECT rounds.round, 'measured', design, modulus_pa, toughness_pa FROM rounds JOIN designs
+                  ON measured_in <= rounds.round
+                  WHERE modulus_pa > 0 AND toughness_pa > 0 AND length(design) = 14 AND design NOT LIKE 'mix:%'),
+       stiffer AS (SELECT *, max(toughness_pa) OVER (PARTITION BY round, kind
+                                                     ORDER BY modulus_pa DESC, toughness_pa DESC ROWS BETWEEN UNBOUNDED PRECEDING AND 1 PRECEDING) AS toughest
+                   FROM points)
+  SELECT round, kind, design, modulus_pa, toughness_pa FROM stiffer
+  WHERE toughest IS NULL OR toughness_pa > toughest ORDER BY round, kind, modulus_pa DESC;
+)sql";
+
+/// Effects weighed in the diagnosis of a round; those that it names have a parameter.
+inline constexpr const char* kEffectsView = R"sql(
+  CREATE VIEW effects AS
+  WITH found AS (SELECT *, row_number() OVER (PARTITION BY round ORDER BY id DESC) AS place
+                 FROM messages WHERE channel = 'DIAGNOSIS')
+  SELECT found.round, c.value->>'name' AS name, c.value->>'status' AS status, c.value->>'statistic' AS statistic,
+         c.value->>'p_family_wise' AS p_family_wise, c.value->>'absorption' AS absorption,
+         e.value->>'parameter' AS parameter, e.value->>'interval_low' AS interval_low,
+         e.value->>'interval_high' AS interval_high, e.value->>'unit' AS unit
+  FROM found JOIN json_each(found.content, '$.candidates') c
+       LEFT JOIN json_each(found.content, '$.effects') e ON e.value->>'name' = c.value->>'name'
+  WHERE found.place = 1;
+)sql";
+
+}  // namespace nacre::run
