@@ -19,7 +19,7 @@ constexpr int kFirstDrawn = 2;
 struct Column {
   const char* title;
   const char* file;
-  std::function<double(const round_summary_t&)> value;
+  std::function<double(const wire::RoundSummary&)> value;
   double unit;
 };
 
@@ -93,7 +93,7 @@ void print_table(const Games& games) {
   for (std::size_t i = 0; i < kColumns.size(); ++i) fmt::print(" --- |");
   fmt::print("\n");
   for (const auto& [seed, rounds] : games.by_seed) {
-    for (const round_summary_t& round : rounds)
+    for (const wire::RoundSummary& round : rounds)
       print_row(fmt::format("{}, {}", seed, round.round), [&](const Column& c) { return c.unit * c.value(round); });
   }
   for (std::size_t round = 0; round < longest(games); ++round) {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "nacre/round_summary_t.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::demo_games {
 
-using Rounds = std::vector<round_summary_t>;
+using Rounds = std::vector<wire::RoundSummary>;
 
 /// The games of one scenario.
 struct Games {

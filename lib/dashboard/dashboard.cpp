@@ -12,6 +12,7 @@
 #include "dashboard/laboratory_view.hpp"
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/rounds_view.hpp"
+#include "dashboard/run_view.hpp"
 #include "game/starting_point.hpp"
 #include "run/measured_patterns.hpp"
 #include "runtime/bus.hpp"
@@ -83,6 +84,8 @@ bool is_known_to_be_over(run::Run& data) {
   }
 }
 
+Response row_response(const auto& row) { return json_response(wire::json_of(row)); }
+
 Response binary(std::string bytes) {
   return {.type = "application/octet-stream", .body = std::move(bytes), .headers = {}};
 }
@@ -142,30 +145,29 @@ Response Dashboard::handle(const Request& request) {
 
 Response Dashboard::run(const Request&) {
   const game::Scenario& s = settings_.scenario;
-  return json_response({{"run", settings_.run_id},
-                        {"scenario", s.name},
-                        {"fidelity", tester::to_string(s.fidelity)},
-                        {"rounds", s.rounds},
-                        {"approval", s.validation.approval},
-                        {"virtual_lab", s.laboratory.virtual_lab},
-                        {"diagnosis", s.diagnosis.enabled},
-                        {"replicates", s.validation.replicates},
-                        {"started", settings_.started},
-                        {"nacre_version", settings_.nacre_version},
-                        {"commit", settings_.commit},
-                        {"report", std::filesystem::exists(settings_.run_folder / "report.html")},
-                        {"user", settings_.user}});
+  return row_response(RunRow{.run = settings_.run_id,
+                             .scenario = s.name,
+                             .fidelity = s.fidelity,
+                             .rounds = s.rounds,
+                             .approval = s.validation.approval,
+                             .virtual_lab = s.laboratory.virtual_lab,
+                             .diagnosis = s.diagnosis.enabled,
+                             .replicates = s.validation.replicates,
+                             .started = settings_.started,
+                             .nacre_version = settings_.nacre_version,
+                             .commit = settings_.commit,
+                             .report = std::filesystem::exists(settings_.run_folder / "report.html"),
+                             .user = settings_.user});
 }
 
 Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
   const auto search = desk_.search();
-  return json_response({{"playing", is_playing(nodes)},
-                        {"data", fmt::format("{}/{}", run_.version(), search ? search->patterns : 0)},
-                        {"nodes", nodes_json(nodes, is_known_to_be_over(run_))}});
+  const std::string data = fmt::format("{}/{}", run_.version(), search ? search->patterns : 0);
+  return row_response(LiveRow{is_playing(nodes), data, node_rows(nodes, is_known_to_be_over(run_))});
 }
 
-Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*run_.record(), desk_.search())); }
+Response Dashboard::rounds(const Request&) { return row_response(rounds_row(*run_.record(), desk_.search())); }
 
 Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {
@@ -185,7 +187,7 @@ Response Dashboard::gamut(const Request& request) {
 }
 
 Response Dashboard::design(const Request& request) {
-  return json_response(design_json(*run_.record(), design_of(request)));
+  return row_response(design_row(*run_.record(), design_of(request)));
 }
 
 Dashboard::FractureRequest Dashboard::fracture_request(const Request& request, const pattern::Design& design,
@@ -266,7 +268,7 @@ Response Dashboard::laboratory(const Request&) {
   const std::lock_guard lock(desk_mutex_);
   const std::int64_t begun_us = runtime::steady_us();
   if (begun_us >= laboratory_fresh_until_us_) {
-    laboratory_ = laboratory_json(desk_.laboratory());
+    laboratory_ = wire::json_of(laboratory_row(desk_.laboratory()));
     const std::int64_t now_us = runtime::steady_us();
     laboratory_fresh_until_us_ = now_us + std::max(kLeastFresh_us, kFreshPerCost * (now_us - begun_us));
   }
@@ -274,7 +276,7 @@ Response Dashboard::laboratory(const Request&) {
 }
 
 Response Dashboard::diagnosis(const Request& request) {
-  return json_response(diagnosis_json(*run_.record(), round_of(request)));
+  return row_response(diagnosis_row(*run_.record(), round_of(request)));
 }
 
 Response Dashboard::maps(const Request&) {
@@ -315,10 +317,9 @@ Response Dashboard::between(const Request& request) {
 
 Response Dashboard::families(const Request&) {
   const auto record = run_.record();
-  Json json =
-      families_json(*record, family_folder_.grouping(measured_members(*record), settings_.scenario.families.rank));
-  json["enabled"] = settings_.scenario.families.enabled;
-  return json_response(json);
+  const game::FamilySettings& settings = settings_.scenario.families;
+  return row_response(
+      families_row(*record, family_folder_.grouping(measured_members(*record), settings.rank), settings.enabled));
 }
 
 Response Dashboard::report(const Request&) {

@@ -12,7 +12,6 @@
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "measurement/specimen_record.hpp"
-#include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {
@@ -50,7 +49,7 @@ struct Laboratory {
 /// The last STATUS of a node.
 struct NodeReport {
   std::string node;
-  node_status_t status{};
+  wire::NodeStatus status;
   double age_s = 0.0;  ///< since it came
 };
 

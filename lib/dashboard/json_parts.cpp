@@ -3,33 +3,24 @@
 #include <algorithm>
 
 namespace nacre::dashboard {
-namespace {
 
-constexpr int kCurvePoints = 400;
-
-}  // namespace
-
-Json curve_json(const tester::Curve& curve) {
-  if (curve.empty()) return nullptr;
-  const std::size_t count = curve.size(), most = kCurvePoints, shown = std::min(count, most);
-  Json strain = Json::array(), stress = Json::array();
+std::optional<CurveRow> curve_row(const tester::Curve& curve) {
+  constexpr std::size_t kMost = 400;
+  if (curve.empty()) return std::nullopt;
+  const std::size_t count = curve.size(), shown = std::min(count, kMost);
+  CurveRow row;
   for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t k = count <= most ? i : i * (count - 1) / (most - 1);
-    strain.push_back(curve.strain[k]);
-    stress.push_back(curve.stress_pa[k]);
+    const std::size_t k = count <= kMost ? i : i * (count - 1) / (kMost - 1);
+    row.strain.push_back(curve.strain[k]);
+    row.stress_pa.push_back(curve.stress_pa[k]);
   }
-  return {{"strain", strain}, {"stress_pa", stress}};
+  return row;
 }
 
-Json errors_json(const sysid::PredictionErrors& e) {
-  if (e.modulus_count == 0 && e.toughness_count == 0) return nullptr;
-  return {{"modulus_count", e.modulus_count},
-          {"modulus_mean", e.modulus_mean},
-          {"modulus_max", e.modulus_max},
-          {"toughness_count", e.toughness_count},
-          {"toughness_mean", e.toughness_mean},
-          {"toughness_max", e.toughness_max},
-          {"toughness_spearman", e.toughness_spearman}};
+std::vector<std::array<double, 2>> points_of(const std::vector<optimize::Performance>& performances) {
+  std::vector<std::array<double, 2>> points;
+  for (const optimize::Performance& each : performances) points.push_back({each.modulus_pa, each.toughness_pa});
+  return points;
 }
 
 }  // namespace nacre::dashboard

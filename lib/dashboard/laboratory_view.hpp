@@ -1,12 +1,122 @@
 #pragma once
-// The laboratory's work, as JSON.
+// The laboratory's work.
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "dashboard/desk.hpp"
 #include "dashboard/json_parts.hpp"
 
 namespace nacre::dashboard {
 
+struct LaboratorySpecimenRow {
+  static constexpr std::string_view kPageName = "LaboratorySpecimen";
+  measurement::SpecimenRecord record;
+  game::Review review;  ///< the last one; by nobody: there is none
+
+  static void fields(auto& field, auto& m) {
+    const measurement::SpecimenRecord& r = m.record;
+    field("specimen", r.specimen);
+    field("design", r.design);
+    field("test", r.test);
+    condition_fields(field, r.conditions);
+    field("batch", r.batch);
+    field("modulus_pa", r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa);
+    field("toughness_pa", r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa);
+    field("points", r.curve.size());
+    field("valid", r.valid);
+    field("note", r.note);
+    field("by", m.review.by);
+    field("why", m.review.why);
+  }
+};
+
+struct OrderRow {
+  static constexpr std::string_view kPageName = "Order";
+  game::Order order;
+  game::OrderProgress progress;
+
+  static void fields(auto& field, auto& m) {
+    const game::Order& order = m.order;
+    field("order", order.id);
+    field("round", order.round);
+    field("design", order.design);
+    field("test", order.test);
+    condition_fields(field, order.conditions);
+    field("loading", order.loading);
+    field("batch", order.batch);
+    field("replicates", order.replicates);
+    field("arrived", m.progress.arrived);
+    field("valid", m.progress.valid);
+    field("complete", m.progress.complete);
+    field("reason", game::to_string(order.reason));
+  }
+};
+
+struct OutlierRow {
+  static constexpr std::string_view kPageName = "ProposedOutlier";
+  const measurement::ProposedOutlier* outlier = &nothing<measurement::ProposedOutlier>();
+
+  static void fields(auto& field, auto& m) {
+    std::vector<std::string> reasons;
+    for (const auto& reason : m.outlier->reasons) reasons.push_back(reason.text);
+    field("specimen", m.outlier->specimen);
+    field("reasons", reasons);
+  }
+};
+
+/// Replicates. Means are null where no specimen is valid, scatters also where only one is.
+struct GroupRow {
+  static constexpr std::string_view kPageName = "Group";
+  measurement::ReplicateGroup group;
+
+  static void fields(auto& field, auto& m) {
+    const measurement::ReplicateGroup& g = m.group;
+    field("design", g.design);
+    field("test", g.test);
+    condition_fields(field, g.conditions);
+    field("state", to_string(g.state));
+    field("tested", g.tested);
+    field("valid", g.valid);
+    field("proposed_outliers", rows_of<OutlierRow>(g.proposed));
+    field("wanted", g.wanted);
+    field("mean_pa", g.mean_pa);
+    field("scatter", g.scatter);
+    field("mean_without_pa", g.mean_without_pa);
+    field("scatter_without", g.scatter_without);
+    field("representative", g.representative);
+  }
+};
+
+struct OpenProposalRow {
+  static constexpr std::string_view kPageName = "OpenProposal";
+  wire::Proposal proposal;
+
+  static void fields(auto& field, auto& m) {
+    field("round", m.proposal.round);
+    field("simulations", m.proposal.simulations);
+    field("designs", m.proposal.designs);
+  }
+};
+
 /// The newest proposal, designs with their state, orders, specimens, groups of replicates with proposed outliers.
-Json laboratory_json(const Laboratory& laboratory);
+struct LaboratoryRow {
+  static constexpr std::string_view kPageName = "Laboratory";
+  std::optional<OpenProposalRow> proposal;
+  std::vector<game::DesignState> designs;
+  std::vector<OrderRow> orders;
+  std::vector<LaboratorySpecimenRow> specimens;
+  std::vector<GroupRow> groups;
+
+  static void fields(auto& field, auto& m) {
+    field("proposal", m.proposal);
+    field("designs", m.designs);
+    field("orders", m.orders);
+    field("specimens", m.specimens);
+    field("groups", m.groups);
+  }
+};
+LaboratoryRow laboratory_row(const Laboratory& laboratory);
 
 }  // namespace nacre::dashboard

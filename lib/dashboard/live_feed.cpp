@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "base/result.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {
@@ -47,7 +46,7 @@ void LiveFeed::receive_until_moved(runtime::Bus& bus, const std::string& identit
   for (int turn = 1; !stopping_; ++turn) {
     bus.receive(kTurn_ms, [&](const runtime::Received& received) {
       if (received.message.channel == "SIMULATED") return take_result(received.message.payload);
-      const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+      const auto status = wire::read<wire::NodeStatus>(received.message.payload);
       if (!status) return;
       const std::lock_guard lock(mutex_);
       heard_[received.header.node] = {*status, runtime::steady_us()};

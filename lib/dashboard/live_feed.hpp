@@ -36,7 +36,7 @@ class LiveFeed {
 
  private:
   struct Heard {
-    node_status_t status;
+    wire::NodeStatus status;
     std::int64_t when_us = 0;
   };
   void listen();

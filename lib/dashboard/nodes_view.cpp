@@ -1,7 +1,5 @@
 #include "dashboard/nodes_view.hpp"
 
-#include "wire/status_json.hpp"
-
 namespace nacre::dashboard {
 namespace {
 
@@ -17,21 +15,10 @@ std::string_view state_of(const NodeReport& report, bool is_over) {
 
 }  // namespace
 
-Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over) {
-  Json array = Json::array();
-  for (const NodeReport& report : nodes) {
-    const node_status_t& s = report.status;
-    Json node = {{"node", report.node},
-                 {"state", state_of(report, is_over)},
-                 {"age_s", report.age_s},
-                 {"phase", s.phase},
-                 {"round", s.round},
-                 {"progress", s.progress < 0.0 ? Json(nullptr) : Json(s.progress)},
-                 {"eta_s", s.eta_s < 0.0 ? Json(nullptr) : Json(s.eta_s)}};
-    wire::append_counters(node, s);
-    array.push_back(std::move(node));
-  }
-  return array;
+std::vector<NodeRow> node_rows(const std::vector<NodeReport>& nodes, bool is_over) {
+  std::vector<NodeRow> rows;
+  for (const NodeReport& report : nodes) rows.push_back({state_of(report, is_over), &report});
+  return rows;
 }
 
 }  // namespace nacre::dashboard

@@ -5,8 +5,6 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace nacre::game {
 namespace {
 
@@ -113,19 +111,6 @@ measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& fac
   settings.fewest_consistent =
       facts.enough_valid > 0 ? facts.enough_valid : std::min(settings.fewest_consistent, settings.fewest_tested);
   return settings;
-}
-
-nlohmann::ordered_json to_json(const DesignState& state) {
-  using Json = nlohmann::ordered_json;
-  return {{"design", state.design.name()},
-          {"state", to_string(state.stage)},
-          {"proposed_in_round", state.round < 0 ? Json(nullptr) : Json(state.round)},
-          {"ordered", state.ordered},
-          {"printed", state.printed},
-          {"measured", state.arrived},
-          {"valid", state.valid},
-          {"by", state.decided_by},
-          {"why", state.why}};
 }
 
 std::vector<DesignState> design_states(const LaboratoryFacts& facts) {

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "game/measurement_book.hpp"
 #include "measurement/consistency.hpp"
 #include "tester/names.hpp"
@@ -71,10 +69,20 @@ struct DesignState {
   int round = -1;  ///< of the proposal; -1: not proposed by nacre
   int ordered = 0, printed = 0, arrived = 0, valid = 0;
   std::string decided_by, why;
-};
 
-/// As in `nacre designs --json` and on the dashboard.
-nlohmann::ordered_json to_json(const DesignState& state);
+  /// As in `nacre designs --json` and on the dashboard.
+  static void fields(auto& field, auto& m) {
+    field("design", m.design);
+    field("state", to_string(m.stage));
+    field("proposed_in_round", m.round < 0 ? std::nullopt : std::optional<int>(m.round));
+    field("ordered", m.ordered);
+    field("printed", m.printed);
+    field("measured", m.arrived);
+    field("valid", m.valid);
+    field("by", m.decided_by);
+    field("why", m.why);
+  }
+};
 
 /// Designs by name. Homogeneous ones, coupons and designs that a person brought are among them.
 std::vector<DesignState> design_states(const LaboratoryFacts& facts);

@@ -9,13 +9,13 @@
 namespace nacre::report {
 namespace {
 
-ExhibitTable effect_table(const std::vector<effect_t>& effects) {
+ExhibitTable effect_table(const std::vector<wire::DiagnosedEffect>& effects) {
   ExhibitTable table{.name = "",
                      .columns = {{"", "cause"},
                                  {"", "effect size", "Fitted value of the parameter that the cause adds to the model"},
                                  {"", "90 % interval", "Holds the true value in nine of ten cases"},
                                  {"", "unit"}}};
-  for (const effect_t& e : effects) {
+  for (const wire::DiagnosedEffect& e : effects) {
     table.add({shown_cell(effect_name(e.name)), shown_cell(quantity(e.parameter)),
                shown_cell(fmt::format("{} … {}", quantity(e.interval_low), quantity(e.interval_high))),
                text_cell(e.unit)});
@@ -23,7 +23,7 @@ ExhibitTable effect_table(const std::vector<effect_t>& effects) {
   return table;
 }
 
-ExhibitTable candidate_table(const std::vector<candidate_t>& candidates) {
+ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candidates) {
   ExhibitTable table{
       .name = "",
       .columns = {
@@ -37,7 +37,7 @@ ExhibitTable candidate_table(const std::vector<candidate_t>& candidates) {
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
           {"", "imitated by base model", "Share of the effect's signature that refitted base parameters imitate"}}};
   table.look = "named";
-  for (const candidate_t& c : candidates) {
+  for (const wire::DiagnosedCandidate& c : candidates) {
     const bool was_fitted = c.status != "not_applicable";
     const std::string status = escaped(status_in_words(c.status));
     table.add({shown_cell(effect_name(c.name)),
@@ -71,7 +71,7 @@ Exhibit diagnosis_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "diagnosis", .heading = "Diagnosis: what the simulation gets wrong, and why"};
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
-    const diagnosis_t& d = *round->second.diagnosis;
+    const wire::Diagnosis& d = *round->second.diagnosis;
     // The summary says what a named effect gains on new designs (diagnosis::gain_in_words): no second figure here.
     Exhibit part{.id = "", .heading = fmt::format("Round {}: {}", round->first, verdict_in_words(d.verdict))};
     part.notes.push_back(escaped(d.summary));

@@ -16,9 +16,9 @@ void read_as(const std::string& payload, const Use& use) {
 
 /// Validity and note as reviewed. A review makes no specimen valid that has no usable value, as for the validation
 /// agent.
-MeasuredSpecimen reviewed(MeasuredSpecimen specimen, const review_t* review) {
+MeasuredSpecimen reviewed(MeasuredSpecimen specimen, const wire::Review* review) {
   if (review != nullptr) {
-    specimen.record.valid = review->valid != 0;
+    specimen.record.valid = review->valid;
     specimen.record.note = review->why;
   }
   specimen.record.valid = specimen.record.valid && !measurement::why_unusable(specimen.record);
@@ -49,8 +49,7 @@ void Recording::take(std::int64_t id, std::string_view channel, const std::strin
       variants_[g.number][g.chunk] = {id, static_cast<int>(g.samples.size())};
     });
   } else if (channel == "DIAGNOSIS") {
-    auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
-    if (diagnosis && wire::validate(*diagnosis)) rounds_[diagnosis->round].diagnosis = std::move(*diagnosis);
+    read_as<wire::Diagnosis>(payload, [&](wire::Diagnosis d) { rounds_[d.round].diagnosis = std::move(d); });
   }
 }
 
@@ -71,10 +70,10 @@ void Recording::take(const wire::Measurement& measured) {
 
 /// The highest revision counts; of two with one revision "not valid" stands, whichever came first.
 void Recording::take_review(const std::string& payload) {
-  const auto review = wire::decode_safe<review_t>(payload);
-  if (!review || !wire::validate(*review)) return;
+  const auto review = wire::read<wire::Review>(payload);
+  if (!review) return;
   const auto [known, is_new] = reviews_.try_emplace(review->specimen, *review);
-  const auto rank = [](const review_t& r) { return std::pair(r.revision, r.valid == 0); };
+  const auto rank = [](const wire::Review& r) { return std::pair(r.revision, !r.valid); };
   if (rank(*review) > rank(known->second)) known->second = *review;
 }
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "nacre/review_t.hpp"
 #include "run/message_place.hpp"
 #include "run/run_record.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::run {
 
@@ -42,7 +42,7 @@ class Recording {
   std::map<int, RoundRecord> rounds_;
   std::map<int, FamilyRecord> families_;
   std::map<std::string, MeasuredSpecimen> specimens_;
-  std::map<std::string, review_t> reviews_;  ///< that count, by specimen
+  std::map<std::string, wire::Review> reviews_;  ///< that count, by specimen
   Chunks gamuts_, variants_;
   ClosedRounds closed_;
 };

@@ -15,11 +15,11 @@ const Gamut& known(const std::shared_ptr<const Gamut>& gamut) {
 const Gamut& gamut_of(const RoundRecord& round) { return known(round.gamut); }
 const Gamut& gamut_of(const FamilyRecord& family) { return known(family.gamut); }
 
-std::vector<effect_t> named_effects(const diagnosis_t& diagnosis) {
-  std::vector<effect_t> named;
-  for (const effect_t& effect : diagnosis.effects) {
+std::vector<wire::DiagnosedEffect> named_effects(const wire::Diagnosis& diagnosis) {
+  std::vector<wire::DiagnosedEffect> named;
+  for (const wire::DiagnosedEffect& effect : diagnosis.effects) {
     const bool is_further =
-        std::ranges::any_of(named, [&](const effect_t& known) { return known.name == effect.name; });
+        std::ranges::any_of(named, [&](const wire::DiagnosedEffect& known) { return known.name == effect.name; });
     if (!is_further) named.push_back(effect);
   }
   return named;

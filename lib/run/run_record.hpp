@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "measurement/specimen_record.hpp"
-#include "nacre/diagnosis_t.hpp"
 #include "optimize/pareto.hpp"
 #include "wire/convert.hpp"
 
@@ -28,7 +27,7 @@ struct RoundRecord {
   int gamut_count = 0;                 ///< samples received
   std::shared_ptr<const Gamut> gamut;  ///< where it was asked for (Run::record_with_gamuts), else nullptr
   std::vector<wire::ProposedDesign> proposals;
-  std::optional<diagnosis_t> diagnosis;
+  std::optional<wire::Diagnosis> diagnosis;
   std::map<std::string, wire::SimulatedDesign> simulated;  ///< measured designs by this round's model, by design
   std::map<std::string, wire::Fracture> cracks;            ///< of the proposals, by design
 };
@@ -65,6 +64,6 @@ inline optimize::Performance predicted(const wire::ProposedDesign& design) {
 }
 
 /// An effect that a diagnosis names, once each: a further row is a further parameter of it.
-std::vector<effect_t> named_effects(const diagnosis_t& diagnosis);
+std::vector<wire::DiagnosedEffect> named_effects(const wire::Diagnosis& diagnosis);
 
 }  // namespace nacre::run

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "wire/channels.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::runtime {
 
@@ -56,10 +56,10 @@ bool Endpoint::deliver(double timeout_s, const std::function<void(const Received
 
 void Endpoint::handle(const Received& received) {
   if (received.message.channel == "STATUS") {
-    const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+    const auto status = wire::read<wire::NodeStatus>(received.message.payload);
     if (status) outbox_.saw(received.header.node, received.header.epoch, status->journal);
   } else if (received.message.channel == "ACK") {
-    const auto ack = wire::decode_safe<ack_t>(received.message.payload);
+    const auto ack = wire::read<wire::Ack>(received.message.payload);
     if (!ack) return;
     for (const std::string& hash : ack->hashes)
       outbox_.acknowledge(hash, received.header.node, received.header.epoch, ack->journal);

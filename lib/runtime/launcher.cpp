@@ -17,7 +17,6 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
-#include "nacre/run_t.hpp"
 #include "runtime/debugger.hpp"
 #include "runtime/endpoint.hpp"
 #include "runtime/interrupts.hpp"
@@ -26,7 +25,7 @@
 #include "runtime/run_folder.hpp"
 #include "runtime/supervised_node.hpp"
 #include "runtime/terminal.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -236,7 +235,7 @@ std::vector<SupervisedNode*> Launch::nodes() const {
 
 void Launch::take_message(const Received& received) {
   if (received.message.channel == "ROUND") {
-    const auto round = wire::decode_safe<round_summary_t>(received.message.payload);
+    const auto round = wire::read<wire::RoundSummary>(received.message.payload);
     if (!round) return;
     // A ROUND is repeated until everybody has it; the last one is said once more when families followed it.
     if (shown_rounds_.emplace(round->round, round->last).second) display_.say(in_words(*round));
@@ -244,7 +243,7 @@ void Launch::take_message(const Received& received) {
     return;
   }
   if (received.message.channel != "STATUS") return;
-  const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+  const auto status = wire::read<wire::NodeStatus>(received.message.payload);
   if (!status) return;
   for (const auto& node : nodes_) {
     if (node->name() != received.header.node) continue;
@@ -296,11 +295,11 @@ void Launch::announce_when_ready() {
   if (is_announced_ || is_guest()) return;
   const std::string missing = names_of_nodes_not_ready();
   if (missing.empty()) {
-    run_t message{};
+    wire::RunStart message;
     message.seed = static_cast<std::int64_t>(run_.scenario().seed);
     message.scenario_hash = run_.manifest().scenario_hash;
     message.schema_version = kSchemaVersion;
-    const auto offered = endpoint_->offer({"RUN", wire::encode(message)});
+    const auto offered = endpoint_->offer({"RUN", wire::write(message)});
     if (!offered) throw InputError("RUN: " + offered.error().message);
     is_announced_ = true;
     display_.say("every node is ready: the game begins");
@@ -327,7 +326,7 @@ bool Launch::game_is_over() {
   if (!all_finished || Clock::now() - checked_for_end_ < std::chrono::milliseconds(500)) return false;
   checked_for_end_ = Clock::now();
   if (!is_started_here(options_, "validation_agent")) return true;
-  const std::vector<round_summary_t> rounds = read_rounds(run_.path());
+  const std::vector<wire::RoundSummary> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;
 }
 
@@ -366,7 +365,7 @@ void Launch::stop(std::vector<SupervisedNode*> processes) {
 
 void Launch::sum_up(bool is_complete) {
   try {
-    for (const round_summary_t& round : read_rounds(run_.path())) print_line(stdout, in_words(round));
+    for (const wire::RoundSummary& round : read_rounds(run_.path())) print_line(stdout, in_words(round));
   } catch (const InputError&) {  // a damaged journal, which its node has said
   }
   const fs::path report = run_.path() / "report.html";

@@ -23,7 +23,7 @@
 #include "runtime/text_log.hpp"
 #include "runtime/work_pool.hpp"
 #include "wire/channels.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -217,12 +217,12 @@ class NodeShell {
       }
       return;
     }
-    const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+    const auto status = wire::read<wire::NodeStatus>(received.message.payload);
     if (status) outbox_.saw(received.header.node, received.header.epoch, status->journal);
   }
 
   void handle_ack(const Received& received) {
-    const auto ack = wire::decode_safe<ack_t>(received.message.payload);
+    const auto ack = wire::read<wire::Ack>(received.message.payload);
     if (!ack) return;
     const wire::Header& from = received.header;
     for (const std::string& hash : ack->hashes) {
@@ -295,10 +295,10 @@ class NodeShell {
     const std::int64_t now = steady_us();
     for (const Message* message : outbox_.due(now)) bus_->publish(*message);
     if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
-      ack_t ack{};
+      wire::Ack ack;
       ack.journal = journal_->identity();
       ack.hashes = std::move(hashes);
-      bus_->publish({"ACK", wire::encode(ack)});
+      bus_->publish({"ACK", wire::write(ack)});
     }
   }
 
@@ -307,7 +307,7 @@ class NodeShell {
     next_status_ = now + kStatusPeriodUs;
     const Status status = core_.status();
     const BusCounters& bus = bus_->counters();
-    node_status_t message{};
+    wire::NodeStatus message;
     message.journal = journal_->identity();
     message.ready = received_own_status_;
     message.unacknowledged = outbox_.unacknowledged();
@@ -329,7 +329,7 @@ class NodeShell {
     message.journal_bytes = journal_->bytes();
     message.work = executor_->standing();
     message.last_problem = problem_.shown(now);
-    bus_->publish({"STATUS", wire::encode(message)});
+    bus_->publish({"STATUS", wire::write(message)});
   }
 
   int wait_ms() const {

@@ -6,7 +6,7 @@
 
 #include "base/counted.hpp"
 #include "runtime/journal.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -21,41 +21,41 @@ std::string percent(double share) {
 }
 
 /// "E 6.3 %, T 25 %"; empty without designs.
-std::string in_words(const prediction_error_t& errors) {
+std::string in_words(const sysid::PredictionErrors& errors) {
   std::string words;
-  if (errors.n_modulus > 0) words += "E " + percent(errors.modulus_mean);
-  if (errors.n_toughness > 0) words += (words.empty() ? "T " : ", T ") + percent(errors.toughness_mean);
+  if (errors.modulus_count > 0) words += "E " + percent(errors.modulus_mean);
+  if (errors.toughness_count > 0) words += (words.empty() ? "T " : ", T ") + percent(errors.toughness_mean);
   return words;
 }
 
 /// "model fitted to 3 base materials (errors E 0 %, T 2 %)".
-std::string fit_in_words(const round_summary_t& round) {
-  if (round.n_calibration == 0) return "model not fitted";
+std::string fit_in_words(const wire::RoundSummary& round) {
+  if (round.calibration_count == 0) return "model not fitted";
   const std::string errors = in_words(round.after);
   return fmt::format("model fitted to {}{}",
-                     counted(round.n_calibration, round.round == 0 ? "base material" : "design"),
+                     counted(round.calibration_count, round.round == 0 ? "base material" : "design"),
                      errors.empty() ? "" : fmt::format(" (errors {})", errors));
 }
 
 }  // namespace
 
-std::vector<round_summary_t> read_rounds(const std::filesystem::path& run_folder) {
+std::vector<wire::RoundSummary> read_rounds(const std::filesystem::path& run_folder) {
   const auto journal = run_folder / "nodes" / "validation_agent" / "journal.lcm";
   if (!std::filesystem::exists(journal)) return {};
   const std::string channel = std::string(kOutPrefix) + "ROUND";
-  std::map<int, round_summary_t> rounds;
+  std::map<int, wire::RoundSummary> rounds;
   LogReader reader(journal);
   while (const auto record = reader.next()) {
     if (record->channel != channel) continue;
-    const auto round = wire::decode_safe<round_summary_t>(record->data);
+    const auto round = wire::read<wire::RoundSummary>(record->data);
     if (round) rounds[round->round] = *round;
   }
-  std::vector<round_summary_t> in_order;
+  std::vector<wire::RoundSummary> in_order;
   for (auto& [number, round] : rounds) in_order.push_back(std::move(round));
   return in_order;
 }
 
-std::string in_words(const round_summary_t& round) {
+std::string in_words(const wire::RoundSummary& round) {
   if (round.round == 0) return fmt::format("round 0: nothing measured yet; {}", fit_in_words(round));
   const std::string errors = in_words(round.held_out);
   return fmt::format(

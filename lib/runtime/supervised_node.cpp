@@ -161,7 +161,7 @@ std::optional<std::string> SupervisedNode::listen(Clock::time_point now) {
   return fmt::format("{} reports from elsewhere", name());
 }
 
-void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now) {
+void SupervisedNode::saw(const wire::NodeStatus& status, std::int64_t epoch, Clock::time_point now) {
   // A late STATUS of a process that has died. Not told by the time in it: clocks may be set.
   if (process_ && epoch_before_ != 0 && epoch == epoch_before_) return;
   if (!process_ && state_ != State::stopped && !runs_elsewhere()) return;

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "nacre/node_status_t.hpp"
 #include "runtime/live_display.hpp"
 #include "runtime/process.hpp"
 #include "runtime/restart_budget.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::runtime {
 
@@ -40,7 +40,7 @@ class SupervisedNode {
   /// Takes note of an end and starts again what is due. Returns a sentence for a person when something happened.
   std::optional<std::string> supervise(Clock::time_point now);
   /// A STATUS of this node. Those of an earlier process are ignored.
-  void saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now);
+  void saw(const wire::NodeStatus& status, std::int64_t epoch, Clock::time_point now);
   /// From now on an end is what was asked for: no restarts.
   void expect_end() { end_is_expected_ = true; }
   void signal(int signal) const;
@@ -73,7 +73,7 @@ class SupervisedNode {
   std::int64_t epoch_before_ = 0;  ///< of the last STATUS of the process before
   std::optional<Clock::time_point> restart_at_;
   std::string last_line_;
-  node_status_t status_{};
+  wire::NodeStatus status_;
   int restarts_ = 0;
   bool end_is_expected_ = false;
   std::optional<Clock::time_point> last_status_at_;

@@ -3,37 +3,24 @@
 #include <algorithm>
 
 #include "wire/convert.hpp"
+#include "wire/schema.hpp"
 
 namespace nacre::wire {
 namespace {
 
-template <class Domain>
-Result<void> validate_domain(std::string_view payload) {
-  const Result<Domain> value = read<Domain>(payload);
-  if (!value) return tl::unexpected(value.error());
+using Receivers = std::vector<std::string_view>;
+
+template <class Message>
+Result<void> validate(std::string_view payload) {
+  const Result<Message> message = read<Message>(payload);
+  if (!message) return tl::unexpected(message.error());
   return {};
 }
 
-template <class Type>
-Result<void> validate_type(std::string_view payload) {
-  const Result<Type> message = decode_safe<Type>(payload);
-  if (!message) return tl::unexpected(message.error());
-  return validate(*message);
-}
-
-using Receivers = std::vector<std::string_view>;
-
-/// Row of a type that has a domain value.
-template <class Domain>
-Channel domain_channel(std::string_view name, Receivers receivers, bool synced = false) {
-  using Wire = typename Domain::Wire;
-  return {name, Wire::getTypeName(), Wire::getHash(), std::move(receivers), true, synced, validate_domain<Domain>};
-}
-
-/// Row of a type that is used as it is.
-template <class Type>
-Channel type_channel(std::string_view name, Receivers receivers, bool reliable = true, bool synced = false) {
-  return {name, Type::getTypeName(), Type::getHash(), std::move(receivers), reliable, synced, validate_type<Type>};
+template <class Message>
+Channel channel(std::string_view name, Receivers receivers, bool reliable = true, bool synced = false) {
+  using Wire = typename Message::Wire;
+  return {name, Wire::getTypeName(), Wire::getHash(), std::move(receivers), reliable, synced, validate<Message>};
 }
 
 std::vector<Channel> make_channels() {
@@ -41,24 +28,24 @@ std::vector<Channel> make_channels() {
   const Receivers everyone{kEveryNode};
   const Receivers judges{"validation_agent", "analyser"};
   return {
-      type_channel<run_t>("RUN", everyone),
-      domain_channel<AdoptedModel>("PARAMETERS", {"proposal_agent", "analyser"}),
-      domain_channel<SimulateRequest>("SIMULATE", {"simulator_farm"}),
-      domain_channel<SimulateResult>("SIMULATED", {kRequester}),
-      domain_channel<Fracture>("FRACTURE", {kRequester}),
-      domain_channel<GamutChunk>("GAMUT", {"analyser", "validation_agent"}),
-      domain_channel<Proposal>("PROPOSAL", {"validation_agent", "analyser"}),
-      type_channel<approval_t>("APPROVAL", validation, true, true),
-      domain_channel<TestOrder>("TEST_ORDER", {"virtual_lab"}),
-      domain_channel<Measurement>("MEASUREMENT", judges, true),
-      type_channel<review_t>("REVIEW", judges, true, true),
-      domain_channel<DiagnoseRequest>("DIAGNOSE", {"analyser"}),
-      type_channel<diagnosis_t>("DIAGNOSIS", {"validation_agent", "proposal_agent"}),
-      domain_channel<RoundSummary>("ROUND", everyone),
-      domain_channel<CalibratedFamily>("FAMILY", {"analyser"}),
-      domain_channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
-      type_channel<ack_t>("ACK", everyone, false),
-      type_channel<node_status_t>("STATUS", everyone, false),
+      channel<RunStart>("RUN", everyone),
+      channel<AdoptedModel>("PARAMETERS", {"proposal_agent", "analyser"}),
+      channel<SimulateRequest>("SIMULATE", {"simulator_farm"}),
+      channel<SimulateResult>("SIMULATED", {kRequester}),
+      channel<Fracture>("FRACTURE", {kRequester}),
+      channel<GamutChunk>("GAMUT", {"analyser", "validation_agent"}),
+      channel<Proposal>("PROPOSAL", {"validation_agent", "analyser"}),
+      channel<Approval>("APPROVAL", validation, true, true),
+      channel<TestOrder>("TEST_ORDER", {"virtual_lab"}),
+      channel<Measurement>("MEASUREMENT", judges, true, true),
+      channel<Review>("REVIEW", judges, true, true),
+      channel<DiagnoseRequest>("DIAGNOSE", {"analyser"}),
+      channel<Diagnosis>("DIAGNOSIS", {"validation_agent", "proposal_agent"}),
+      channel<RoundSummary>("ROUND", everyone),
+      channel<CalibratedFamily>("FAMILY", {"analyser"}),
+      channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
+      channel<Ack>("ACK", everyone, false),
+      channel<NodeStatus>("STATUS", everyone, false),
   };
 }
 
@@ -109,17 +96,14 @@ Result<void> check_outgoing(std::string_view channel, std::string_view payload) 
 }
 
 std::string request_id_of(std::string_view channel, std::string_view payload) {
-  if (channel == "SIMULATE") {
-    const Result<simulate_request_t> request = decode_safe<simulate_request_t>(payload);
-    if (request) return request->request_id;
-  } else if (channel == "SIMULATED") {
-    const Result<simulate_result_t> response = decode_safe<simulate_result_t>(payload);
-    if (response) return response->request_id;
-  } else if (channel == "FRACTURE") {
-    const Result<fracture_t> response = decode_safe<fracture_t>(payload);
-    if (response) return response->request_id;
-  }
-  return {};
+  if (channel != "SIMULATE" && channel != "SIMULATED" && channel != "FRACTURE") return {};
+  const Channel* known = find_channel(channel);
+  const Result<std::string_view> fields = behind_header(known->type, known->fingerprint, payload);
+  std::string request_id;  // their first field
+  if (!fields) return request_id;
+  FieldReader reader(*fields);
+  reader("request_id", request_id);
+  return request_id;
 }
 
 bool is_response(std::string_view channel) {

@@ -51,6 +51,19 @@ std::uint64_t checksum_of(std::string_view channel, std::string_view bytes_with_
   return content_hash64(all);
 }
 
+/// Reads over a header; the reader then stands behind it. `checksum_position`: where its checksum begins.
+Header read_header(HeaderReader& reader, std::size_t& checksum_position) {
+  Header header;
+  header.utime = static_cast<std::int64_t>(reader.integer(8));
+  header.node = reader.text();
+  header.epoch = static_cast<std::int64_t>(reader.integer(8));
+  header.seq = static_cast<std::int64_t>(reader.integer(8));
+  checksum_position = reader.position;
+  reader.integer(8);
+  header.run_id = reader.text();
+  return header;
+}
+
 void write_checksum(std::string& bytes, std::size_t position, std::uint64_t checksum) {
   std::string field;
   append_big_endian(field, checksum, 8);
@@ -79,26 +92,31 @@ Result<Blanked> blank_header(std::string_view channel, std::string_view bytes) {
   if (bytes.size() < kFingerprintSize) return fail("{} bytes are too short for a message", bytes.size());
   HeaderReader reader{bytes};
   Blanked blanked;
-  blanked.header.utime = static_cast<std::int64_t>(reader.integer(8));
-  blanked.header.node = reader.text();
-  blanked.header.epoch = static_cast<std::int64_t>(reader.integer(8));
-  blanked.header.seq = static_cast<std::int64_t>(reader.integer(8));
-  const std::size_t checksum_position = reader.position;
-  const std::uint64_t checksum = reader.integer(8);
-  blanked.header.run_id = reader.text();
+  std::size_t checksum_position = 0;
+  blanked.header = read_header(reader, checksum_position);
   if (!reader.sound) return fail("the header is damaged");
   std::string zeroed(bytes);
   write_checksum(zeroed, checksum_position, 0);
-  if (checksum_of(channel, zeroed) != checksum) return fail("the checksum does not fit the bytes");
+  if (checksum_of(channel, zeroed) != read_big_endian(bytes.substr(checksum_position, 8)))
+    return fail("the checksum does not fit the bytes");
   blanked.payload.assign(bytes.substr(0, kFingerprintSize));
-  append_big_endian(blanked.payload, 0, 8);
-  append_text(blanked.payload, "");
-  append_big_endian(blanked.payload, 0, 8);
-  append_big_endian(blanked.payload, 0, 8);
-  append_big_endian(blanked.payload, 0, 8);
-  append_text(blanked.payload, "");
+  append_blank_header(blanked.payload);
   blanked.payload.append(bytes.substr(reader.position));
   return blanked;
+}
+
+void append_blank_header(std::string& bytes) {
+  append_big_endian(bytes, 0, 8);
+  append_text(bytes, "");
+  for (int i = 0; i < 3; ++i) append_big_endian(bytes, 0, 8);
+  append_text(bytes, "");
+}
+
+std::size_t end_of_header(std::string_view bytes) {
+  HeaderReader reader{bytes};
+  std::size_t checksum_position = 0;
+  read_header(reader, checksum_position);
+  return reader.sound ? reader.position : 0;
 }
 
 std::int64_t fingerprint_of(std::string_view bytes) {

@@ -34,6 +34,12 @@ std::string stamp_header(std::string_view channel, std::string_view payload, con
 /// Takes the header off. The error says what is wrong: too short, names too long, checksum that does not fit (corrupt).
 Result<Blanked> blank_header(std::string_view channel, std::string_view bytes);
 
+/// Appends the default header.
+void append_blank_header(std::string& bytes);
+
+/// Where a message goes on behind its header; 0 when the header is damaged.
+std::size_t end_of_header(std::string_view bytes);
+
 /// The fingerprint of the type in the first eight bytes; 0 when there are fewer.
 std::int64_t fingerprint_of(std::string_view bytes);
 

@@ -264,7 +264,7 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
   if (work.id.starts_with("store/")) {
     storing_.erase(work.id);
   } else if (work.id.starts_with("diagnose/")) {
-    const auto diagnosis = wire::decode_safe<diagnosis_t>(work.result);
+    const auto diagnosis = wire::read<wire::Diagnosis>(work.result);
     if (diagnosis) {
       outputs_.log.push_back(
           {runtime::LogLevel::info, fmt::format("round {}: {}", diagnosis->round, diagnosis->summary)});

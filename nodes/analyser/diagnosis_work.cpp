@@ -35,8 +35,8 @@ std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task)
   return specimens;
 }
 
-diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
-  diagnosis_t message{};
+wire::Diagnosis message_of(const diagnosis::Diagnosis& d, int round) {
+  wire::Diagnosis message;
   message.round = round;
   message.verdict = std::string(to_string(d.verdict));
   message.summary = d.summary;
@@ -53,21 +53,15 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
   for (const diagnosis::CandidateEffect& c : d.candidates) {
     message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});
   }
-  if (d.gain) {
-    message.has_gain = true;
-    message.held_out_error_before = d.gain->held_out_error_before;
-    message.held_out_error_after = d.gain->held_out_error_after;
-    message.relative_reduction = d.gain->relative_reduction;
-    message.reduction_low = d.gain->interval_low;
-    message.reduction_high = d.gain->interval_high;
-  }
+  if (d.gain)
+    message.gain = wire::DiagnosedGain{.held_out_error_before = d.gain->held_out_error_before,
+                                       .held_out_error_after = d.gain->held_out_error_after,
+                                       .relative_reduction = d.gain->relative_reduction,
+                                       .reduction_low = d.gain->interval_low,
+                                       .reduction_high = d.gain->interval_high};
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    message.next_experiments.push_back({e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions),
-                                        e.replicates, tester::to_string(e.loading), e.reason});
+    message.next_experiments.push_back({e.design, e.test, e.conditions, e.replicates, e.loading, e.reason});
   }
-  message.n_effects = static_cast<std::int32_t>(message.effects.size());
-  message.n_candidates = static_cast<std::int32_t>(message.candidates.size());
-  message.n_next_experiments = static_cast<std::int32_t>(message.next_experiments.size());
   return message;
 }
 
@@ -97,13 +91,13 @@ std::string diagnose_work(const std::string& spec) {
   settings.check_discretisation = false;
   const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
-    return wire::encode(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
+    return wire::write(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
   } catch (const InputError& error) {
-    return wire::encode(message_of(diagnosis::undecided(error.what()), task.request.round));
+    return wire::write(message_of(diagnosis::undecided(error.what()), task.request.round));
   } catch (const std::runtime_error& error) {
     // Measurements come from people: a fit that breaks on them must not end the game, which waits for the diagnosis.
     const std::string why = fmt::format("the diagnosis broke off: {}", error.what());
-    return wire::encode(message_of(diagnosis::undecided(why), task.request.round));
+    return wire::write(message_of(diagnosis::undecided(why), task.request.round));
   }
 }
 

@@ -12,11 +12,9 @@
 #include "command.hpp"
 #include "design_words.hpp"
 #include "laboratory_view.hpp"
-#include "nacre/approval_t.hpp"
 #include "output.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::cli {
@@ -82,13 +80,13 @@ std::string_view word(bool approved) { return approved ? "approved" : "rejected"
 
 /// Whether the validation agent has acknowledged it.
 bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedApproval& decision) {
-  approval_t message{};
+  wire::Approval message;
   message.round = decision.proposal_round;
-  message.design = decision.design.name();
+  message.design = decision.design;
   message.approved = decision.approved;
   message.by = decision.by;
   message.why = decision.why;
-  return deliver(run, "approve", {"APPROVAL", wire::encode(message)}, options.timeout_s) == 0;
+  return deliver(run, "approve", {"APPROVAL", wire::write(message)}, options.timeout_s) == 0;
 }
 
 /// How far each design of the run has come, by name.

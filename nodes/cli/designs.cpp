@@ -11,6 +11,7 @@
 #include "laboratory_view.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
+#include "wire/field_json.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -47,9 +48,7 @@ int show_designs(const DesignsOptions& options) {
   const LaboratoryView view = view_laboratory(run);
   const auto states = game::design_states(view.facts);
   if (options.json) {
-    nlohmann::ordered_json document = nlohmann::ordered_json::array();
-    for (const game::DesignState& state : states) document.push_back(game::to_json(state));
-    print_json(document);
+    print_json(wire::json_of(states));
   } else {
     print_designs(states, waits_for_approval(run, view));
   }

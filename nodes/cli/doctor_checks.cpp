@@ -17,14 +17,13 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
-#include "nacre/node_status_t.hpp"
 #include "run/run_schema.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/process.hpp"
 #include "runtime/version.hpp"
 #include "store/database_care.hpp"
 #include "store/simulation_cache.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::cli {
 
@@ -114,7 +113,7 @@ Finding check_loopback(int port, bool lan) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   bool has_come_back = false;
   while (!has_come_back && std::chrono::steady_clock::now() < end) {
-    (*bus)->publish({"STATUS", wire::encode(node_status_t{})});
+    (*bus)->publish({"STATUS", wire::write(wire::NodeStatus{})});
     (*bus)->receive(100, [&](const runtime::Received&) { has_come_back = true; });
   }
   if (!has_come_back) return finding.found = "a message sent to the bus did not come back within 3 s", finding;

@@ -33,9 +33,9 @@ std::optional<std::string_view> word_for(const std::string& field, const nlohman
   if (!value.is_number_integer()) return std::nullopt;
   const auto code = value.get<std::int8_t>();
   if (field == "test") {
-    if (const auto test = wire::test_kind_from_wire(code)) return tester::to_string(*test);
+    if (const auto test = wire::test_kind_of_code(code)) return tester::to_string(*test);
   } else if (field == "fidelity") {
-    if (const auto fidelity = wire::fidelity_from_wire(code)) return tester::to_string(*fidelity);
+    if (const auto fidelity = wire::fidelity_of_code(code)) return tester::to_string(*fidelity);
   }
   return std::nullopt;
 }

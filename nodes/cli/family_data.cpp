@@ -7,7 +7,7 @@
 #include "output.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::cli {
 namespace {

@@ -7,11 +7,9 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
-#include "nacre/approval_t.hpp"
-#include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "specimen_messages.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -84,15 +82,14 @@ auto each(const Take& take) {
 }
 
 void take_review(const std::string& payload, game::MeasurementBook& book) {
-  if (const auto review = wire::decode_safe<review_t>(payload))
-    book.review(review->specimen, {review->revision, review->valid != 0, review->why, review->by});
+  if (const auto review = wire::read<wire::Review>(payload))
+    book.review(review->specimen, {review->revision, review->valid, review->why, review->by});
 }
 
 void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
-  const auto approval = wire::decode_safe<approval_t>(payload);
+  const auto approval = wire::read<wire::Approval>(payload);
   if (!approval) return;
-  if (const auto design = pattern::design_from_name(approval->design))
-    facts.approvals.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
+  facts.approvals.push_back({approval->round, approval->design, approval->approved, approval->by, approval->why});
 }
 
 }  // namespace

@@ -14,11 +14,10 @@
 #include "measurement/consistency.hpp"
 #include "measurement/history.hpp"
 #include "measurement/set_table.hpp"
-#include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
 #include "specimen_messages.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -90,13 +89,13 @@ std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& 
                        held->valid ? "" : "not ", held->why));
     return std::nullopt;
   }
-  review_t message{};
+  wire::Review message;
   message.specimen = review.specimen;
   message.revision = revision;
   message.valid = review.valid;
   message.by = options.by;
   message.why = review.why;
-  if (deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s) != 0) return std::nullopt;
+  if (deliver(run, "review", {"REVIEW", wire::write(message)}, options.timeout_s) != 0) return std::nullopt;
   return Reviewed{review, revision};
 }
 

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 
+#include "base/expected.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "families/families_file.hpp"
 #include "laboratory_view.hpp"
 #include "measurement/specimen_checks.hpp"
-#include "nacre/approval_t.hpp"
-#include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "runtime/log_file.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
 
@@ -90,13 +88,13 @@ std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& rev
 }
 
 Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
-  review_t message{};
+  wire::Review message;
   message.specimen = review.specimen;
   message.revision = highest_revisions(run_)[review.specimen] + 1;
   message.valid = review.valid;
   message.by = review.by;
   message.why = review.why;
-  return hand_in({"REVIEW", wire::encode(message)});
+  return hand_in({"REVIEW", wire::write(message)});
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::Approval& approval) {
@@ -107,13 +105,13 @@ std::optional<std::string> RunDesk::against(const dashboard::Approval& approval)
 }
 
 Delivery RunDesk::decide(const dashboard::Approval& approval) {
-  approval_t message{};
+  wire::Approval message;
   message.round = approval.round;
-  message.design = approval.design;
+  message.design = expected(pattern::design_from_name(approval.design));  // against() has read it
   message.approved = approval.approved;
   message.by = approval.by;
   message.why = approval.why;
-  return hand_in({"APPROVAL", wire::encode(message)});
+  return hand_in({"APPROVAL", wire::write(message)});
 }
 
 }  // namespace nacre::cli

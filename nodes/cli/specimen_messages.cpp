@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "nacre/review_t.hpp"
 #include "run/journal_messages.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
 
@@ -131,7 +129,7 @@ std::map<std::string, int> highest_revisions(const RunAccess& run) {
   // Either journal may be lost: the node that keeps the other holds the higher revision, and to it a lower one is old.
   for (const char* node : {"validation_agent", "analyser"})
     for (const std::string& payload : run::received_by(run.folder, node, "REVIEW")) {
-      const auto review = wire::decode_safe<review_t>(payload);
+      const auto review = wire::read<wire::Review>(payload);
       if (review) highest[review->specimen] = std::max<int>(highest[review->specimen], review->revision);
     }
   return highest;

@@ -9,13 +9,12 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
-#include "nacre/node_status_t.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
 #include "runtime/live_display.hpp"
 #include "runtime/terminal.hpp"
-#include "wire/codec.hpp"
-#include "wire/status_json.hpp"
+#include "wire/convert.hpp"
+#include "wire/field_json.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -26,7 +25,7 @@ struct Options {
   bool json = false;
 };
 
-using Statuses = std::map<std::string, node_status_t>;
+using Statuses = std::map<std::string, wire::NodeStatus>;
 
 /// The newest STATUS of every node that speaks within `seconds`.
 Statuses collect(const RunAccess& run, double seconds) {
@@ -35,18 +34,19 @@ Statuses collect(const RunAccess& run, double seconds) {
   Statuses statuses;
   while (std::chrono::steady_clock::now() < end) {
     bus->receive(50, [&](const runtime::Received& received) {
-      auto status = wire::decode_safe<node_status_t>(received.message.payload);
+      auto status = wire::read<wire::NodeStatus>(received.message.payload);
       if (status) statuses[received.header.node] = *status;
     });
   }
   return statuses;
 }
 
-nlohmann::ordered_json to_json(const std::string& node, const node_status_t& s) {
-  nlohmann::ordered_json document = {{"node", node},     {"ready", bool(s.ready)}, {"finished", bool(s.finished)},
-                                     {"phase", s.phase}, {"round", s.round},       {"progress", s.progress},
+nlohmann::ordered_json to_json(const std::string& node, const wire::NodeStatus& s) {
+  nlohmann::ordered_json document = {{"node", node},     {"ready", s.ready}, {"finished", s.finished},
+                                     {"phase", s.phase}, {"round", s.round}, {"progress", s.progress},
                                      {"eta_s", s.eta_s}};
-  wire::append_counters(document, s);
+  wire::FieldJson counters(document);
+  wire::NodeStatus::counters(counters, s);
   return document;
 }
 

@@ -40,7 +40,7 @@ void ValidationCore::accept_message(const runtime::Message& message) {
 }
 
 void ValidationCore::accept_run(const std::string& payload) {
-  const auto run = wire::decode_safe<run_t>(payload);
+  const auto run = wire::read<wire::RunStart>(payload);
   if (!run) return say(LogLevel::warning, "a RUN is ignored: " + run.error().message);
   if (phase_ != Phase::waiting_for_run) return;
   if (static_cast<std::uint64_t>(run->seed) != scenario_.seed) {
@@ -95,16 +95,15 @@ void ValidationCore::accept_proposal(const std::string& payload) {
 }
 
 void ValidationCore::accept_diagnosis(const std::string& payload) {
-  const auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
-  const auto sound = diagnosis ? wire::validate(*diagnosis) : Result<void>(tl::unexpected(diagnosis.error()));
-  if (!sound) return say(LogLevel::warning, "a DIAGNOSIS is ignored: " + sound.error().message);
+  const auto diagnosis = wire::read<wire::Diagnosis>(payload);
+  if (!diagnosis) return say(LogLevel::warning, "a DIAGNOSIS is ignored: " + diagnosis.error().message);
   if (diagnosis->round < round_) return;
   const bool is_awaited = phase_ == Phase::diagnosing && diagnosis->round == round_;
   if (is_awaited) return take_diagnosis(*diagnosis);
   if (!diagnosis_ || diagnosis_->round < diagnosis->round) early_diagnoses_.emplace(diagnosis->round, *diagnosis);
 }
 
-void ValidationCore::take_diagnosis(const diagnosis_t& diagnosis) {
+void ValidationCore::take_diagnosis(const wire::Diagnosis& diagnosis) {
   diagnosis_ = diagnosis;
   say(LogLevel::info, fmt::format("round {}: diagnosis {}: {}", round_, diagnosis.verdict, diagnosis.summary));
   weigh(diagnosis);
@@ -145,52 +144,48 @@ void ValidationCore::accept_measurement(const std::string& payload) {
 }
 
 void ValidationCore::accept_review(const std::string& payload) {
-  const auto review = wire::decode_safe<review_t>(payload);
-  const auto sound = review ? wire::validate(*review) : Result<void>(tl::unexpected(review.error()));
-  if (!sound) return say(LogLevel::warning, "a REVIEW is ignored: " + sound.error().message);
-  if (!book_.review(review->specimen, {review->revision, review->valid != 0, review->why})) return;
+  const auto review = wire::read<wire::Review>(payload);
+  if (!review) return say(LogLevel::warning, "a REVIEW is ignored: " + review.error().message);
+  if (!book_.review(review->specimen, {review->revision, review->valid, review->why})) return;
   say(LogLevel::info, fmt::format("{} says that specimen {} is {}valid: {}", review->by, review->specimen,
                                   review->valid ? "" : "not ", review->why));
   if (phase_ == Phase::measuring) measure_on();
 }
 
 void ValidationCore::accept_approval(const std::string& payload) {
-  const auto approval = wire::decode_safe<approval_t>(payload);
-  const auto sound = approval ? wire::validate(*approval) : Result<void>(tl::unexpected(approval.error()));
-  if (!sound) return say(LogLevel::warning, "an APPROVAL is ignored: " + sound.error().message);
-  const auto design = pattern::design_from_name(approval->design);
-  if (!design) return say(LogLevel::warning, "an APPROVAL is ignored: " + design.error().message);
-  if (approval->round < 0) return add_own_design(*design, *approval);
+  const auto approval = wire::read<wire::Approval>(payload);
+  if (!approval) return say(LogLevel::warning, "an APPROVAL is ignored: " + approval.error().message);
+  if (approval->round < 0) return add_own_design(*approval);
+  const pattern::Design& design = approval->design;
   if (const auto proposal = proposals_.find(approval->round); proposal != proposals_.end()) {
     const auto& designs = proposal->second.designs;
-    if (std::none_of(designs.begin(), designs.end(), [&](const auto& each) { return each.design == *design; })) {
+    if (std::none_of(designs.begin(), designs.end(), [&](const auto& each) { return each.design == design; })) {
       return say(LogLevel::warning, fmt::format("an APPROVAL is ignored: {} is not in the proposal of round {}",
-                                                approval->design, approval->round));
+                                                design.name(), approval->round));
     }
   }
   if (families_ && approval->round == round_) {
     const std::vector<pattern::Design> chosen = families_->chosen();
-    if (std::find(chosen.begin(), chosen.end(), *design) == chosen.end())
+    if (std::find(chosen.begin(), chosen.end(), design) == chosen.end())
       return say(LogLevel::warning,
-                 fmt::format("an APPROVAL is ignored: {} is not chosen of any family", approval->design));
+                 fmt::format("an APPROVAL is ignored: {} is not chosen of any family", design.name()));
   }
-  const auto orders =
-      desk_.take_approval(approval->round, *design, {approval->approved != 0, approval->by, approval->why});
+  const auto orders = desk_.take_approval(approval->round, design, {approval->approved, approval->by, approval->why});
   if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
-                                  approval->design, approval->why));
+                                  design.name(), approval->why));
   send_orders(*orders);
   if (phase_ == Phase::measuring) measure_on();
 }
 
-void ValidationCore::add_own_design(const pattern::Design& design, const approval_t& approval) {
+void ValidationCore::add_own_design(const wire::Approval& approval) {
   if (phase_ == Phase::finished)
     return say(LogLevel::warning, fmt::format("an APPROVAL changes nothing: no round follows in which {} could be "
                                               "measured",
-                                              approval.design));
-  const auto orders = desk_.add_own(design, phase_ == Phase::measuring);
+                                              approval.design.name()));
+  const auto orders = desk_.add_own(approval.design, phase_ == Phase::measuring);
   if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
-  say(LogLevel::info, fmt::format("{} adds {}: {}", approval.by, approval.design, approval.why));
+  say(LogLevel::info, fmt::format("{} adds {}: {}", approval.by, approval.design.name(), approval.why));
   send_orders(*orders);
 }
 

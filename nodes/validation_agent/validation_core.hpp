@@ -80,7 +80,7 @@ class ValidationCore : public runtime::NodeCore {
   void accept_review(const std::string& payload);
   void accept_approval(const std::string& payload);
   void accept_work(const runtime::WorkDone& work);
-  void add_own_design(const pattern::Design& design, const approval_t& approval);
+  void add_own_design(const wire::Approval& approval);
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
@@ -103,11 +103,11 @@ class ValidationCore : public runtime::NodeCore {
   /// What the present round is fitted to.
   material::FitTarget fit_target() const;
   void diagnose();
-  std::optional<material::ParameterSet> extended_by(const diagnosis_t& diagnosis);
-  bool model_holds(const diagnosis_t& diagnosis) const;
+  std::optional<material::ParameterSet> extended_by(const wire::Diagnosis& diagnosis);
+  bool model_holds(const wire::Diagnosis& diagnosis) const;
   void take_early_measurements();
-  void take_diagnosis(const diagnosis_t& diagnosis);
-  void weigh(const diagnosis_t& diagnosis);
+  void take_diagnosis(const wire::Diagnosis& diagnosis);
+  void weigh(const wire::Diagnosis& diagnosis);
   void finish_trial(const sysid::Calibrated& result);
   void publish_model();
   std::vector<optimize::Performance> benchmark() const;
@@ -158,8 +158,9 @@ class ValidationCore : public runtime::NodeCore {
   std::map<int, std::vector<explore::Evaluated>> gamuts_;
   std::map<int, wire::Proposal> proposals_;
   std::map<int, std::vector<std::string>> early_measurements_;
-  std::map<int, diagnosis_t> early_diagnoses_;  // that came before they were requested: this agent's journal was lost
-  std::optional<diagnosis_t> diagnosis_;        // of the last round that had one
+  std::map<int, wire::Diagnosis>
+      early_diagnoses_;                       // that came before they were requested: this agent's journal was lost
+  std::optional<wire::Diagnosis> diagnosis_;  // of the last round that had one
   std::vector<game::RoundFigures> history_;
 
   std::optional<FamilyStage> families_;  // begun with the last round's end

@@ -50,18 +50,12 @@ void ValidationCore::begin_unfitted() {
 std::vector<game::DiscriminationTest> ValidationCore::experiments() const {
   std::vector<game::DiscriminationTest> experiments;
   if (!diagnosis_ || model_holds(*diagnosis_)) return experiments;
-  for (const next_experiment_t& next : diagnosis_->next_experiments) {
-    const auto design = pattern::design_from_name(next.design);
-    const auto test = wire::test_kind_from_wire(next.test);
-    const auto conditions = wire::from_wire(next.conditions);
-    const auto loading = tester::loading_from_string(next.loading);
-    if (!design || !test || !conditions || !loading) continue;  // validated on arrival
-    experiments.push_back({.design = *design,
-                           .test = *test,
-                           .conditions = *conditions,
-                           .loading = *loading,
+  for (const wire::NextExperiment& next : diagnosis_->next_experiments)
+    experiments.push_back({.design = next.design,
+                           .test = next.test,
+                           .conditions = next.conditions,
+                           .loading = next.loading,
                            .replicates = next.replicates});
-  }
   return experiments;
 }
 
@@ -283,7 +277,7 @@ void ValidationCore::close_round_when_proposed() {
   }
   send("ROUND", round);
   const bool has_news = round_ > 0 || round.last || families_follow;  // of round 0 the sentence says it all
-  say(LogLevel::info, runtime::in_words(wire::to_wire(round)) + (has_news ? "; " + round.decided_by : ""));
+  say(LogLevel::info, runtime::in_words(round) + (has_news ? "; " + round.decided_by : ""));
   if (families_follow) {
     phase_ = Phase::working_out_families;
     families_.emplace(scenario_, std::move(beginning));

@@ -17,10 +17,10 @@ namespace nacre::validation_agent {
 
 using runtime::LogLevel;
 
-std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosis_t& diagnosis) {
+std::optional<material::ParameterSet> ValidationCore::extended_by(const wire::Diagnosis& diagnosis) {
   material::ParameterSet extended = model_;
   material::Extensions numbers;  // an effect with several parameters stands there as often
-  for (const effect_t& effect : diagnosis.effects) {
+  for (const wire::DiagnosedEffect& effect : diagnosis.effects) {
     if (material::find_effect(effect.name) == nullptr) {
       say(LogLevel::warning,
           fmt::format("the diagnosis names {}, which is not in the library of effects", effect.name));
@@ -42,13 +42,13 @@ std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosi
 }
 
 /// Whether all that a diagnosis names is part of the adopted model already.
-bool ValidationCore::model_holds(const diagnosis_t& diagnosis) const {
+bool ValidationCore::model_holds(const wire::Diagnosis& diagnosis) const {
   return !diagnosis.effects.empty() &&
          std::all_of(diagnosis.effects.begin(), diagnosis.effects.end(),
-                     [&](const effect_t& each) { return model_.extensions.contains(each.name); });
+                     [&](const wire::DiagnosedEffect& each) { return model_.extensions.contains(each.name); });
 }
 
-void ValidationCore::weigh(const diagnosis_t& diagnosis) {
+void ValidationCore::weigh(const wire::Diagnosis& diagnosis) {
   const bool named = diagnosis.verdict == "named" && !diagnosis.effects.empty();
   const auto extended = named ? extended_by(diagnosis) : std::nullopt;
   if (!extended || *extended == model_) {
@@ -59,7 +59,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
     return publish_model();
   }
   std::vector<std::string> effects;
-  for (const effect_t& effect : diagnosis.effects) effects.push_back(effect.name);
+  for (const wire::DiagnosedEffect& effect : diagnosis.effects) effects.push_back(effect.name);
   std::sort(effects.begin(), effects.end());
   effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
   if (!trial_ || trial_->effects != effects)

@@ -21,33 +21,32 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-diagnosis_t named(const std::string& effect, double parameter) {
-  diagnosis_t diagnosis{};
+wire::Diagnosis named(const std::string& effect, double parameter) {
+  wire::Diagnosis diagnosis;
   diagnosis.verdict = "named";
   diagnosis.summary = "made up by the test";
-  effect_t cause{};
+  wire::DiagnosedEffect cause;
   cause.name = effect;
   cause.family = "interface";
   cause.parameter = parameter;
   cause.interval_low = 0.9 * parameter;
   cause.interval_high = 1.1 * parameter;
   diagnosis.effects = {cause};
-  diagnosis.has_gain = true;
-  diagnosis.held_out_error_before = 0.2;
-  diagnosis.held_out_error_after = 0.1;
-  diagnosis.relative_reduction = 0.5;
-  diagnosis.reduction_low = 0.3;
-  diagnosis.reduction_high = 0.6;
+  diagnosis.gain = wire::DiagnosedGain{.held_out_error_before = 0.2,
+                                       .held_out_error_after = 0.1,
+                                       .relative_reduction = 0.5,
+                                       .reduction_low = 0.3,
+                                       .reduction_high = 0.6};
   return diagnosis;
 }
 
-diagnosis_t nothing_wrong() {
-  diagnosis_t diagnosis{};
+wire::Diagnosis nothing_wrong() {
+  wire::Diagnosis diagnosis;
   diagnosis.verdict = "base_sufficient";
   return diagnosis;
 }
 
-InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(int)> diagnosis,
+InProcessGame played(const game::Scenario& scenario, std::function<wire::Diagnosis(int)> diagnosis,
                      const LaboratorySettings& laboratory = {}) {
   InProcessGame game;
   add_players(game, scenario, laboratory, std::move(diagnosis));
@@ -115,16 +114,14 @@ TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsPredictedByBothAndOrdered) {
   LaboratorySettings laboratory;
   laboratory.hidden["droplet_mixing"] = {0.3};
   const auto diagnosed = [](int) {
-    diagnosis_t diagnosis = named("droplet_mixing", 0.3);
+    wire::Diagnosis diagnosis = named("droplet_mixing", 0.3);
     for (const int period : {1, 2}) {
-      next_experiment_t next{};
-      next.design = pattern::Design(pattern::checkerboard(period)).name();
-      next.conditions = wire::to_wire(tester::TestConditions{});
+      wire::NextExperiment next;
+      next.design = pattern::checkerboard(period);
       next.replicates = 2;
-      next.loading = "monotonic";
       diagnosis.next_experiments.push_back(next);
     }
-    next_experiment_t turned = diagnosis.next_experiments.front();
+    wire::NextExperiment turned = diagnosis.next_experiments.front();
     turned.conditions.orientation_deg = 90.0;  // no design of the calibration: the trial has no use for it
     diagnosis.next_experiments.push_back(turned);
     return diagnosis;
@@ -186,11 +183,11 @@ TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
   game::Scenario scenario = small_scenario();
   LaboratorySettings laboratory;
   laboratory.hidden["droplet_mixing"] = {0.3};
-  std::vector<diagnosis_t> unusable(3, named("droplet_mixing", 0.3));
+  std::vector<wire::Diagnosis> unusable(3, named("droplet_mixing", 0.3));
   unusable[0].verdict = "ambiguous";
   unusable[1].effects[0].parameter = 1e6;  // outside what the effect allows
   unusable[2].effects[0].name = "gremlins";
-  for (const diagnosis_t& diagnosis : unusable) {
+  for (const wire::Diagnosis& diagnosis : unusable) {
     const auto game = played(
         scenario, [&](int) { return diagnosis; }, laboratory);
     for (const auto& model : game.sent<wire::AdoptedModel>("PARAMETERS"))
@@ -202,22 +199,19 @@ TEST(Diagnosis, SeparatingExperimentsAreOrderedWithTheProposals) {
   game::Scenario scenario = small_scenario();
   const pattern::Design coupon = pattern::Pattern(0x577fffe9fffdefULL);
   const auto game = played(scenario, [&](int) {
-    diagnosis_t diagnosis{};
+    wire::Diagnosis diagnosis;
     diagnosis.verdict = "ambiguous";
     for (double rate : {6.17e-4, 6.17e-3, 6.17e-2}) {
-      next_experiment_t next{};
-      next.design = coupon.name();
-      next.test = 0;
+      wire::NextExperiment next;
+      next.design = coupon;
       next.conditions.strain_rate_per_s = rate;
-      next.conditions.thickness_mm = 3.2;
       next.replicates = 2;
-      next.loading = "monotonic";
       diagnosis.next_experiments.push_back(next);
     }
-    next_experiment_t& unloaded = diagnosis.next_experiments[1];
-    unloaded.design = "rigid";
-    unloaded.test = 2;
-    unloaded.loading = "strain 0.02 0.005";
+    wire::NextExperiment& unloaded = diagnosis.next_experiments[1];
+    unloaded.design = pattern::Mixture{1.0};
+    unloaded.test = tester::TestKind::tensile;
+    unloaded.loading = {{0.02, 0.005}};
     return diagnosis;
   });
   std::vector<wire::TestOrder> separating;

@@ -201,12 +201,12 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   game.announce(scenario);
   game.play();
   const auto send_approval = [&](int round, const pattern::Design& design, bool yes) {
-    approval_t approval{};
+    wire::Approval approval;
     approval.round = round;
     approval.design = design.name();
     approval.approved = yes;
     approval.by = "a person";
-    game.publish({"APPROVAL", wire::encode(approval)});
+    game.publish({"APPROVAL", wire::write(approval)});
   };
   const wire::Proposal first = game.sent<wire::Proposal>("PROPOSAL").at(0);
   for (const auto& proposed : first.designs) send_approval(0, proposed.design, true);

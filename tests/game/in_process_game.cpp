@@ -42,11 +42,11 @@ void InProcessGame::publish(const runtime::Message& message) {
 }
 
 void InProcessGame::announce(const game::Scenario& scenario) {
-  run_t run{};
+  wire::RunStart run;
   run.seed = static_cast<std::int64_t>(scenario.seed);
   run.scenario_hash = "in process";
   run.schema_version = 1;
-  publish({"RUN", wire::encode(run)});
+  publish({"RUN", wire::write(run)});
 }
 
 void InProcessGame::take_outputs(const std::string& node, runtime::Outputs outputs) {

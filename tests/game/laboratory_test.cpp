@@ -147,13 +147,13 @@ TEST_F(PersonGame, AReviewTakesASpecimenOutAndTheHighestRevisionWins) {
   });
   victim->record.modulus_pa = 500e9;
   const auto review = [&](int revision, bool valid) {
-    review_t message{};
+    wire::Review message;
     message.specimen = victim->record.specimen;
     message.revision = revision;
     message.valid = valid;
     message.by = "lab";
     message.why = "decimal point";
-    game_.publish({"REVIEW", wire::encode(message)});
+    game_.publish({"REVIEW", wire::write(message)});
     game_.play();
   };
   review(2, false);  // before the measurement it is about
@@ -281,13 +281,13 @@ class ApprovalGame : public PersonGame {
     scenario_.laboratory.virtual_lab = true;
   }
   void send_approval(const pattern::Design& design, bool approved, int round = 0) {
-    approval_t message{};
+    wire::Approval message;
     message.round = round;
     message.design = design.name();
     message.approved = approved;
     message.by = "head of the lab";
     message.why = approved ? "go" : "too thin to print";
-    game_.publish({"APPROVAL", wire::encode(message)});
+    game_.publish({"APPROVAL", wire::write(message)});
     game_.play();
   }
   std::set<std::string> ordered() const {
@@ -416,11 +416,11 @@ TEST(Approval, TheOrderOfApprovalsDoesNotMatter) {
     auto designs = game.sent<wire::Proposal>("PROPOSAL").front().designs;
     if (backwards) std::reverse(designs.begin(), designs.end());
     for (const auto& each : designs) {
-      approval_t message{};
+      wire::Approval message;
       message.design = each.design.name();
       message.approved = true;
       message.by = "lab";
-      game.publish({"APPROVAL", wire::encode(message)});
+      game.publish({"APPROVAL", wire::write(message)});
       game.play();
     }
     EXPECT_THAT(game.payloads("ROUND"), SizeIs(2));

@@ -195,17 +195,17 @@ std::unique_ptr<runtime::NodeCore> make_laboratory(const LaboratorySettings& set
   });
 }
 
-std::unique_ptr<runtime::NodeCore> make_analyser(std::function<diagnosis_t(int)> diagnosis) {
+std::unique_ptr<runtime::NodeCore> make_analyser(std::function<wire::Diagnosis(int)> diagnosis) {
   return std::make_unique<Responder>("DIAGNOSE", [diagnosis = std::move(diagnosis)](const std::string& payload) {
     const int round = wire::read<wire::DiagnoseRequest>(payload).value().round;
-    diagnosis_t response{};
+    wire::Diagnosis response;
     if (diagnosis) {
       response = diagnosis(round);
     } else {
       response.verdict = "base_sufficient";
     }
     response.round = round;
-    return std::vector<runtime::Message>{{"DIAGNOSIS", wire::encode(response)}};
+    return std::vector<runtime::Message>{{"DIAGNOSIS", wire::write(response)}};
   });
 }
 
@@ -232,7 +232,7 @@ game::Scenario small_scenario() {
 }
 
 void add_players(InProcessGame& game, const game::Scenario& scenario, const LaboratorySettings& laboratory,
-                 std::function<diagnosis_t(int)> diagnosis, std::set<std::string> failing) {
+                 std::function<wire::Diagnosis(int)> diagnosis, std::set<std::string> failing) {
   game.add("simulator_farm", simulator_farm::make_core(scenario), closed_form_work(std::move(failing)));
   game.add("proposal_agent", proposal_agent::make_core(scenario), proposal_agent::work_functions());
   game.add("validation_agent", validation_agent::make_core(scenario), validation_agent::work_functions({}));

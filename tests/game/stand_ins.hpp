@@ -40,13 +40,13 @@ std::unique_ptr<runtime::NodeCore> make_laboratory(const LaboratorySettings& set
 std::vector<wire::Measurement> measure(const wire::TestOrder& order, const LaboratorySettings& settings);
 
 /// Node "analyser": DIAGNOSE in, `diagnosis` out with the round of the request; by default "base_sufficient".
-std::unique_ptr<runtime::NodeCore> make_analyser(std::function<diagnosis_t(int round)> diagnosis = {});
+std::unique_ptr<runtime::NodeCore> make_analyser(std::function<wire::Diagnosis(int round)> diagnosis = {});
 
 /// A scenario small enough for hundreds of games: 20 samples, 2 designs a round.
 game::Scenario small_scenario();
 
 /// The three nodes under test and the two stand-ins, with the closed-form tester.
 void add_players(InProcessGame& game, const game::Scenario& scenario, const LaboratorySettings& laboratory = {},
-                 std::function<diagnosis_t(int)> diagnosis = {}, std::set<std::string> failing = {});
+                 std::function<wire::Diagnosis(int)> diagnosis = {}, std::set<std::string> failing = {});
 
 }  // namespace nacre::game_test

@@ -11,11 +11,10 @@
 #include "base/files.hpp"
 #include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
-#include "nacre/review_t.hpp"
 #include "program_test.hpp"
 #include "runtime/log_file.hpp"
 #include "runtime/run_folder.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 #include "wire/header.hpp"
 
 namespace nacre {
@@ -498,9 +497,9 @@ TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
 std::string three_reviews(const fs::path& log) {
   runtime::LogWriter writer(log);
   for (const std::string name : {"first", "second", "third"}) {
-    review_t review{};
+    wire::Review review;
     review.specimen = name;
-    EXPECT_TRUE(writer.append(1, "REVIEW", wire::stamp_header("REVIEW", wire::encode(review), {1, "a", 1, 1, "run"})));
+    EXPECT_TRUE(writer.append(1, "REVIEW", wire::stamp_header("REVIEW", wire::write(review), {1, "a", 1, 1, "run"})));
   }
   EXPECT_TRUE(writer.flush());
   return read_file(log);

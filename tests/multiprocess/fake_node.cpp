@@ -10,9 +10,8 @@
 #include <sstream>
 #include <string>
 
-#include "nacre/round_summary_t.hpp"
 #include "runtime/node_main.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre {
 namespace {
@@ -51,11 +50,11 @@ class FakeCore : public runtime::NodeCore {
     if (message == nullptr || message->channel != "RUN" || is_running_) return outputs;
     is_running_ = true;
     if (node_ != "validation_agent" || !misbehaviour(node_, "endless").empty()) return outputs;
-    round_summary_t round{};
+    wire::RoundSummary round;
     round.round = 0;
     round.last = true;
     round.decided_by = "the fake";
-    outputs.messages.push_back({"ROUND", wire::encode(round)});
+    outputs.messages.push_back({"ROUND", wire::write(round)});
     return outputs;
   }
 

@@ -10,8 +10,6 @@
 
 #include "base/files.hpp"
 #include "base/random.hpp"
-#include "nacre/measurement_t.hpp"
-#include "nacre/parameters_t.hpp"
 #include "persons_game.hpp"
 #include "program_test.hpp"
 #include "runtime/bus.hpp"
@@ -21,7 +19,7 @@
 #include "runtime/run_folder.hpp"
 #include "short_game.hpp"
 #include "wire/channels.hpp"
-#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 #include "wire/header.hpp"
 
 namespace nacre {
@@ -367,11 +365,10 @@ class Stranger {
     return bytes;
   }
   std::string impossible_measurement() {
-    auto message = wire::decode_safe<measurement_t>(measurement_).value();
-    message.specimen = fmt::format("stranger/{}", sequence_);
-    message.has_modulus = 1;
-    message.modulus_pa = -1e9;
-    return wire::stamp_header("MEASUREMENT", wire::encode(message), header());
+    auto message = wire::read<wire::Measurement>(measurement_).value();
+    message.record.specimen = fmt::format("stranger/{}", sequence_);
+    message.record.modulus_pa = -1e9;
+    return wire::stamp_header("MEASUREMENT", wire::write(message), header());
   }
 
   RandomStream random_;
@@ -425,9 +422,9 @@ TEST_F(Game, ReplayNamesTheFirstDifference) {
   rewrite_journal(journal_of(undisturbed_run(), "validation_agent"), journal_of(altered, "validation_agent"),
                   [&](const std::string& channel, const std::string& data) {
                     if (channel != first_output || std::exchange(is_altered, true)) return data;
-                    auto parameters = wire::decode_safe<parameters_t>(data).value();
+                    auto parameters = wire::read<wire::AdoptedModel>(data).value();
                     ++parameters.simulations;
-                    return wire::encode(parameters);
+                    return wire::write(parameters);
                   });
   const Outcome replay = run_nacre({"replay", altered.string(), "--node", "validation_agent"});
   EXPECT_EQ(replay.status, 1);

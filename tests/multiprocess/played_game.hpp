@@ -8,7 +8,6 @@
 #include <tuple>
 #include <vector>
 
-#include "nacre/round_summary_t.hpp"
 #include "runtime/process.hpp"
 #include "wire/convert.hpp"
 

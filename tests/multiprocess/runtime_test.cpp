@@ -44,10 +44,10 @@ Said undisturbed_game() {
   Said said;
   echo::AskerCore asker;
   echo::FarmCore farm;
-  run_t run{};
+  wire::RunStart run;
   run.scenario_hash = "echo";
   run.schema_version = 1;
-  std::deque<Message> queue{{"RUN", wire::encode(run)}};
+  std::deque<Message> queue{{"RUN", wire::write(run)}};
   while (!queue.empty()) {
     const Message message = queue.front();
     queue.pop_front();
@@ -90,10 +90,10 @@ class EchoGame {
     auto opened = runtime::Endpoint::open(std::move(options), echo::kParticipants);
     if (!opened) throw std::runtime_error(opened.error().message);
     launcher_ = std::move(*opened);
-    run_t run{};
+    wire::RunStart run;
     run.scenario_hash = "echo";
     run.schema_version = 1;
-    EXPECT_TRUE(launcher_->offer({"RUN", wire::encode(run)}));
+    EXPECT_TRUE(launcher_->offer({"RUN", wire::write(run)}));
   }
 
   int port() const { return test::test_port(); }
@@ -134,7 +134,7 @@ class EchoGame {
       if (runtime::now_utime() > end) return false;
       launcher_->pump(10, [this](const runtime::Received& received) {
         if (received.message.channel != "STATUS") return;
-        if (const auto status = wire::decode_safe<node_status_t>(received.message.payload)) {
+        if (const auto status = wire::read<wire::NodeStatus>(received.message.payload)) {
           status_[received.header.node] = *status;
         }
       });
@@ -145,7 +145,7 @@ class EchoGame {
     return watch(timeout_s,
                  [this] { return status_["proposal_agent"].finished != 0 && status_["simulator_farm"].finished != 0; });
   }
-  const node_status_t& status(const std::string& node) { return status_[node]; }
+  const wire::NodeStatus& status(const std::string& node) { return status_[node]; }
 
   /// Everything that stands in the journals as said.
   Said said() const {
@@ -176,7 +176,7 @@ class EchoGame {
   TemporaryFolder folder_;
   std::unique_ptr<runtime::Endpoint> launcher_;
   std::map<std::string, Process> processes_;
-  std::map<std::string, node_status_t> status_;
+  std::map<std::string, wire::NodeStatus> status_;
 };
 
 std::int64_t retries(EchoGame& game) {
@@ -488,7 +488,7 @@ TEST(Recorder, AFullDiskIsNoBadInputAndItMayBeStartedAgain) {
   EchoGame game;
   int status = 0;
   ASSERT_TRUE(game.watch(20, [&] {
-    game.launcher().bus().publish({"ACK", wire::encode(ack_t{})});
+    game.launcher().bus().publish({"ACK", wire::write(wire::Ack{})});
     return ::waitpid(recorder, &status, WNOHANG) == recorder;
   }));
   ASSERT_TRUE(WIFEXITED(status));
@@ -516,7 +516,7 @@ TEST(Recorder, KeepsABurstOfEveryMessageOnTheBus) {
   EchoGame game;
   game.start_all();
   EXPECT_TRUE(game.play());
-  for (int i = 0; i < 200; ++i) game.launcher().bus().publish({"ACK", wire::encode(ack_t{})});
+  for (int i = 0; i < 200; ++i) game.launcher().bus().publish({"ACK", wire::write(wire::Ack{})});
   game.watch(20, [&] { return acks_of_launcher(options.log) == 200; });
   stop = true;
   recorder.join();

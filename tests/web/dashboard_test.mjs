@@ -356,7 +356,7 @@ test("families show their variants and whether their models were worth it", asyn
 
 test("a family's model that is worse than the global one is called so", async () => {
   const finished = await openDashboard(game.folder);
-  const of = (mean) => ({ modulus_count: 1, modulus_mean: 0.1, toughness_count: 1, toughness_mean: mean });
+  const of = (mean) => ({ n_modulus: 1, modulus_mean: 0.1, n_toughness: 1, toughness_mean: mean });
   const errors = { seeds: { global: of(0.1), family: of(0.2) }, chosen: { global: of(0.1), family: of(0.3) } };
   const on = await visitWith(`${finished.url}#families`, {
     "/api/families": (said) => ({ ...said, stage: said.stage.map((f) => ({ ...f, errors, over_fits: [] })) }),
@@ -370,7 +370,7 @@ test("a family's model that is worse than the global one is called so", async ()
 test("of a family none of whose variants was measured nothing is claimed", async () => {
   const finished = await openDashboard(game.folder);
   const both = (errors) => ({ global: errors, family: errors });
-  const known = { modulus_count: 1, modulus_mean: 0.1, toughness_count: 1, toughness_mean: 0.1 };
+  const known = { n_modulus: 1, modulus_mean: 0.1, n_toughness: 1, toughness_mean: 0.1 };
   const unmeasured = (d) => (d.is_seed ? d : { ...d, measured: { modulus_pa: null, toughness_pa: null } });
   let chosen = null;
   const on = await visitWith(`${finished.url}#families`, {
@@ -388,7 +388,7 @@ test("of a family none of whose variants was measured nothing is claimed", async
   const cell = (text) => on.locator(".table", { hasText: /on the variants/ }).locator("td", { hasText: text });
   await cell(/^not measured$/).first().waitFor();
   assert.equal(await cell("does not over-fit").count(), 0);
-  chosen = { ...known, toughness_count: 0 };
+  chosen = { ...known, n_toughness: 0 };
   await on.reload();
   await cell("does not over-fit E; T not measured").first().waitFor();
   await leave(on);

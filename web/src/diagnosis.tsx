@@ -43,7 +43,7 @@ const weighed = (candidate: CandidateEffect, text: string) => (candidate.status 
 
 /** A parameter with its 90 % interval on a scale from 0. */
 function Interval({ effect }: { effect: Effect }) {
-  const [low, high] = effect.interval90;
+  const [low, high] = [effect.interval_low, effect.interval_high];
   const span = Math.max(Math.abs(low), Math.abs(high), Math.abs(effect.parameter)) || 1;
   const least = Math.min(0, low, effect.parameter);
   const x = (v: number) => 4 + (192 * (v - least)) / (span - least || 1);
@@ -81,25 +81,29 @@ function Gain({ gain }: { gain: NonNullable<Diagnosis["gain"]> }) {
       <h3>Error on held-out designs: kept back from the fit to test it</h3>
       {row("base model", before, "before")}
       {row("extended", after, "after")}
-      {gain.relative_reduction !== undefined && (
-        <p class="quiet">
-          {percent(Math.abs(gain.relative_reduction))} {gain.relative_reduction < 0 ? "more" : "less"} error
-          {gain.interval90 &&
-            `; reduction, 90 % interval ${percent(gain.interval90[0])} to ${percent(gain.interval90[1])}` +
-              (gain.interval90[0] > 0 ? "" : ": not established")}
-        </p>
-      )}
+      <p class="quiet">
+        {percent(Math.abs(gain.relative_reduction))} {gain.relative_reduction < 0 ? "more" : "less"} error; reduction,
+        90 % interval {percent(gain.reduction_low)} to {percent(gain.reduction_high)}
+        {gain.reduction_low > 0 ? "" : ": not established"}
+      </p>
     </>
   );
 }
 
 /** Effects and gain, as a table. */
 function saveDiagnosis(diagnosis: Diagnosis): void {
-  const rows: unknown[][] = diagnosis.effects.map((e) => [e.name, e.parameter, ...e.interval90, e.unit]);
+  const rows: unknown[][] = diagnosis.effects.map((e) => [
+    e.name,
+    e.parameter,
+    e.interval_low,
+    e.interval_high,
+    e.unit,
+  ]);
   if (diagnosis.gain) {
-    const { held_out_error_before, held_out_error_after, relative_reduction, interval90 } = diagnosis.gain;
+    const { held_out_error_before, held_out_error_after, relative_reduction, reduction_low, reduction_high } =
+      diagnosis.gain;
     rows.push(["held_out_error_before", held_out_error_before], ["held_out_error_after", held_out_error_after]);
-    if (relative_reduction !== undefined) rows.push(["relative_reduction", relative_reduction, ...(interval90 ?? [])]);
+    rows.push(["relative_reduction", relative_reduction, reduction_low, reduction_high]);
   }
   saveCsv(`diagnosis-${diagnosis.round}`, ["what", "value", "low90", "high90", "unit"], rows);
 }
@@ -121,7 +125,7 @@ function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
           <div>
             <Interval effect={e} />
             <p>
-              {figure(e.parameter)} ({figure(e.interval90[0])} to {figure(e.interval90[1])}) {e.unit}
+              {figure(e.parameter)} ({figure(e.interval_low)} to {figure(e.interval_high)}) {e.unit}
             </p>
           </div>
         </div>

@@ -10,7 +10,7 @@ const THESIS_GROWTH = 0.045; // Table A.7, the mean of eleven subfamilies
 
 type Kind = "modulus" | "toughness";
 
-const meanError = (e: Errors | null, kind: Kind) => (e && e[`${kind}_count`] > 0 ? e[`${kind}_mean`] : null);
+const meanError = (e: Errors | null, kind: Kind) => (e && e[`n_${kind}`] > 0 ? e[`${kind}_mean`] : null);
 
 /** Where a family's own model predicts its variants worse than the global one, and no over-fit explains it. */
 export function worseThanGlobal(f: Family): string[] {

@@ -1,7 +1,7 @@
 // The game: gamut and fronts by round, one design at a time, and hypervolume, gap and errors by round.
 
 import { useMemo, useState } from "preact/hooks";
-import type { Measured, Rounds } from "./api";
+import type { Errors, Measured, Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
 import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel, type Chosen } from "./design_panel";
@@ -144,28 +144,26 @@ const CSV = {
 };
 
 /** The value; null in a round before anything was measured. */
-const ofMeasured = (r: Rounds["rounds"][number], value: number) => (r.summary!.measured_hypervolume > 0 ? value : null);
+const ofMeasured = (r: Rounds["rounds"][number], value: number) =>
+  r.summary!.measured_hypervolume_staircase > 0 ? value : null;
 
-const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
-  e && e.modulus_count > 0 ? e.modulus_mean : null;
-const someT = (e: { toughness_count: number; toughness_mean: number } | null) =>
-  e && e.toughness_count > 0 ? e.toughness_mean : null;
+const someE = (e: Errors | null) => (e && e.n_modulus > 0 ? e.modulus_mean : null);
+const someT = (e: Errors | null) => (e && e.n_toughness > 0 ? e.toughness_mean : null);
 
 /** Rank correlation, from three designs on: of two it means nothing. */
-const rankT = (e: { toughness_count: number; toughness_spearman: number } | null) =>
-  e && e.toughness_count >= 3 ? e.toughness_spearman : null;
+const rankT = (e: Errors | null) => (e && e.n_toughness >= 3 ? e.toughness_spearman : null);
 
 function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
   const trends = useMemo(() => {
     const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
     return {
       hypervolume: [
-        { name: "predicted", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume },
+        { name: "predicted", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume_staircase },
         {
           name: "measured",
           csv: CSV.measured,
           colour: meas,
-          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume),
+          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume_staircase),
           error: (r) => ofMeasured(r, r.summary!.hypervolume_error),
           csvOfError: CSV.hypervolumeError,
         },
@@ -411,17 +409,17 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
         {
           ...TERMS.predictedHypervolume,
           csv: CSV.gamut,
-          show: (r) => figure(r.summary!.gamut_hypervolume),
-          value: (r) => r.summary!.gamut_hypervolume,
+          show: (r) => figure(r.summary!.gamut_hypervolume_staircase),
+          value: (r) => r.summary!.gamut_hypervolume_staircase,
         },
         {
           ...TERMS.measuredHypervolume,
           csv: CSV.measured,
           show: ({ summary }) =>
-            summary!.measured_hypervolume > 0
-              ? withError(summary!.measured_hypervolume, summary!.hypervolume_error)
+            summary!.measured_hypervolume_staircase > 0
+              ? withError(summary!.measured_hypervolume_staircase, summary!.hypervolume_error)
               : "–",
-          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume),
+          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume_staircase),
         },
         { heading: CSV.hypervolumeError, value: (r) => ofMeasured(r, r.summary!.hypervolume_error) },
         {

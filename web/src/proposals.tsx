@@ -9,7 +9,7 @@ import { useSubmit } from "./submit";
 interface Offer {
   title: string;
   round: number;
-  designs: Proposed[];
+  designs: Omit<Proposed, "bin">[];
   /** No round follows that would measure them. */
   isLate: boolean;
 }

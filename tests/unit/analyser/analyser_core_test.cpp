@@ -238,14 +238,14 @@ TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {
 }
 
 TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
-  review_t review{};
+  wire::Review review;
   review.specimen = "b";
   review.revision = 1;
   std::vector<Message> messages = {{"MEASUREMENT", measurement_of("a", 5)},
                                    {"MEASUREMENT", measurement_of("b", 6)},
                                    {"MEASUREMENT", measurement_of("c", 7)},
                                    {"DIAGNOSE", request_of({"a", "b", "c"})},
-                                   {"REVIEW", wire::encode(review)}};
+                                   {"REVIEW", wire::write(review)}};
   std::set<std::string> specs;
   std::mt19937 shuffling(1);
   for (int order = 0; order < 20; ++order) {
@@ -270,7 +270,7 @@ TEST(Analyser, DiagnosisIsPublishedAndKept) {
   const std::string result = diagnose_work(compute->spec);  // one specimen is too few: said, not thrown
   analyser.finish("diagnose/r1", result);
   ASSERT_THAT(analyser.sent_on("DIAGNOSIS"), SizeIs(1));
-  const auto diagnosis = wire::decode_safe<diagnosis_t>(analyser.sent_on("DIAGNOSIS").front().payload).value();
+  const auto diagnosis = wire::read<wire::Diagnosis>(analyser.sent_on("DIAGNOSIS").front().payload).value();
   EXPECT_EQ(diagnosis.verdict, "ambiguous");
   EXPECT_EQ(diagnosis.round, 1);
   EXPECT_EQ(analyser.computes.back().spec, store_spec("DIAGNOSIS", result));
@@ -292,9 +292,9 @@ TEST(Analyser, CouponsTakePartInADiagnosis) {
   const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
                                     [](const auto& c) { return c.kind == "diagnose"; });
   ASSERT_NE(compute, analyser.computes.end());
-  const auto diagnosis = wire::decode_safe<diagnosis_t>(diagnose_work(compute->spec)).value();
+  const auto diagnosis = wire::read<wire::Diagnosis>(diagnose_work(compute->spec)).value();
   EXPECT_THAT(diagnosis.summary, Not(HasSubstr("cannot tell yet"))) << "four materials with a curve are enough";
-  EXPECT_GT(diagnosis.n_candidates, 0);
+  EXPECT_FALSE(diagnosis.candidates.empty());
 }
 
 // What relaxes has a time in addition to its size, and neither is known exactly.
@@ -313,9 +313,9 @@ TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
         wire::Measurement{.round = 1, .order_id = "", .fidelity = tester::Fidelity::tiny, .record = record}));
   }
   std::ranges::sort(task.request.specimens);
-  const auto sent = wire::decode_safe<diagnosis_t>(diagnose_work(diagnosis_spec(task))).value();
-  ASSERT_EQ(sent.n_effects, 2) << sent.summary;
-  const effect_t& time_s = sent.effects[1];
+  const auto sent = wire::read<wire::Diagnosis>(diagnose_work(diagnosis_spec(task))).value();
+  ASSERT_EQ(sent.effects.size(), 2U) << sent.summary;
+  const wire::DiagnosedEffect& time_s = sent.effects[1];
   EXPECT_EQ(time_s.unit, "s");
   EXPECT_LT(time_s.interval_low, std::min(time_s.parameter, 12.0));
   EXPECT_GT(time_s.interval_high, std::max(time_s.parameter, 12.0));

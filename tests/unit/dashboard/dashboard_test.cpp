@@ -105,11 +105,11 @@ TEST_F(DashboardOfARun, AMisfitOfTheCalibrationStandsBesideAVerdictThatFindsNoth
   wire::AdoptedModel model = wire::samples::model();
   model.round = 1;
   model.provenance.modulus_fit.p_value = 1e-9;
-  diagnosis_t nothing = wire::samples::diagnosis();
+  wire::Diagnosis nothing = wire::samples::diagnosis();
   nothing.verdict = "base_sufficient";
   run::RunDatabase database(folder_ / "run.db");
   database.keep("PARAMETERS", wire::write(model));
-  database.keep("DIAGNOSIS", wire::encode(nothing));
+  database.keep("DIAGNOSIS", wire::write(nothing));
   EXPECT_THAT(json("/api/diagnosis", {{"round", "1"}})["against"].get<std::string>(), HasSubstr("does not explain E"));
 }
 
@@ -148,9 +148,9 @@ TEST_F(DashboardOfARun, WritesWithinATickOfTheClockAreToldApart) {
 }
 
 TEST_F(DashboardOfARun, NodesOfARunThatIsOverAreNotCalledSilent) {
-  node_status_t finished{};
+  wire::NodeStatus finished;
   finished.finished = true;
-  desk_.reports = {{"analyser", finished, 20.0}, {"simulator_farm", node_status_t{}, 20.0}};
+  desk_.reports = {{"analyser", finished, 20.0}, {"simulator_farm", wire::NodeStatus{}, 20.0}};
   const auto states = [&] {
     std::vector<std::string> found;
     const Json live = json("/api/live");

@@ -144,7 +144,7 @@ TEST(Report, HostileTextsDoNotBecomeMarkup) {
   run::RunRecord run = sample::run(1);
   for (auto& [number, round] : run.rounds) {
     round.summary->decided_by = evil;
-    diagnosis_t& diagnosis = round.diagnosis.emplace();
+    wire::Diagnosis& diagnosis = round.diagnosis.emplace();
     diagnosis.verdict = diagnosis.summary = evil;
     effect_t& effect = diagnosis.effects.emplace_back();
     effect.name = effect.unit = evil;

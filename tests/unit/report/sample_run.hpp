@@ -70,8 +70,9 @@ inline void measure(run::RunRecord& run, const pattern::Pattern& pattern, int ro
   }
 }
 
-inline candidate_t candidate(const char* name, const char* status, double statistic, double p, double absorption) {
-  candidate_t c{};
+inline wire::DiagnosedCandidate candidate(const char* name, const char* status, double statistic, double p,
+                                          double absorption) {
+  wire::DiagnosedCandidate c;
   c.name = name;
   c.status = status;
   c.statistic = statistic;
@@ -80,8 +81,8 @@ inline candidate_t candidate(const char* name, const char* status, double statis
   return c;
 }
 
-inline diagnosis_t diagnosis(int round) {
-  diagnosis_t d{};
+inline wire::Diagnosis diagnosis(int round) {
+  wire::Diagnosis d;
   d.verdict = round < 2 ? "ambiguous" : "named";
   d.summary = round < 2 ? "Something is wrong that droplet_mixing and machine_compliance explain equally well."
                         : "The testing machine gives way: machine_compliance explains the misfit.";
@@ -89,15 +90,13 @@ inline diagnosis_t diagnosis(int round) {
                   candidate("droplet_mixing", round < 2 ? "in_set" : "excluded", 22.0, 0.012, 0.62),
                   candidate("interface_anisotropy", "invisible", 0.4, 0.91, 0.97)};
   if (round >= 2) {
-    effect_t& effect = d.effects.emplace_back();
+    wire::DiagnosedEffect& effect = d.effects.emplace_back();
     effect.name = "machine_compliance";
     effect.unit = "1/Pa";
     effect.parameter = 4.2e-11;
     effect.interval_low = 3.1e-11;
     effect.interval_high = 5.6e-11;
-    d.has_gain = true;
-    d.held_out_error_before = 0.083;
-    d.held_out_error_after = 0.034;
+    d.gain = wire::DiagnosedGain{.held_out_error_before = 0.083, .held_out_error_after = 0.034};
   }
   return d;
 }

@@ -103,11 +103,11 @@ TEST_F(RunOfAFile, AReviewBringsBackASpecimenThatMeansSomethingAndNoOther) {
     measurement.record.specimen = name;
     measurement.record.modulus_pa = modulus_pa;
     database_->keep("MEASUREMENT", wire::write(measurement));
-    review_t review{};
+    wire::Review review;
     review.specimen = name;
     review.revision = 1;
     review.valid = true;
-    database_->keep("REVIEW", wire::encode(review));
+    database_->keep("REVIEW", wire::write(review));
   };
   project("a", 1.2e9);
   project("b", 1.2);  // typed in GPa

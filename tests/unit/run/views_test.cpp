@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "../wire/samples.hpp"
-#include "nacre/review_t.hpp"
 #include "optimize/pareto.hpp"
 #include "run/run_database.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::run {
 namespace {
@@ -49,13 +49,13 @@ class ViewsOfARun : public testing::Test {
     database_.keep("MEASUREMENT", wire::write(m));
   }
   void review(const std::string& specimen, int revision, bool valid) {
-    review_t review{};
+    wire::Review review;
     review.specimen = specimen;
     review.revision = revision;
     review.valid = valid;
     review.by = "Ada";
     review.why = valid ? "sound after all" : "slipped";
-    database_.keep("REVIEW", wire::encode(review));
+    database_.keep("REVIEW", wire::write(review));
   }
   void close(int round, bool last = false) {
     wire::RoundSummary summary = wire::samples::round();

@@ -12,9 +12,9 @@ namespace {
 using testing::HasSubstr;
 
 Message review(const std::string& specimen) {
-  review_t message{};
+  wire::Review message;
   message.specimen = specimen;
-  return {"REVIEW", wire::encode(message)};
+  return {"REVIEW", wire::write(message)};
 }
 
 struct MemoryBus {
@@ -87,12 +87,12 @@ TEST(Bus, EveryReasonAndSenderOfARefusedMessageIsNamed) {
   const auto send = [&](const std::string& node, const std::string& payload) {
     memory.bus->publish_raw("REVIEW", wire::stamp_header("REVIEW", payload, {1, node, 2, 3, "run-1"}));
   };
-  review_t negative{};
+  wire::Review negative;
   negative.specimen = "S-1";
   negative.revision = -1;
   for (int i = 0; i < 3; ++i) send("a", review("").payload);
   send("b", review("").payload);
-  send("a", wire::encode(negative));
+  send("a", wire::write(negative));
   EXPECT_TRUE(memory.receive_all().empty());
   ASSERT_EQ(memory.reports.size(), 4u);
   EXPECT_THAT(memory.reports[0], HasSubstr("from a dropped"));

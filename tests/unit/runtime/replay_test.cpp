@@ -35,10 +35,10 @@ class CountingCore : public NodeCore {
   }
   Status status() const override { return {}; }
   static Message approval(int round) {
-    approval_t message{};
+    wire::Approval message;
     message.round = round;
     message.design = "soft";
-    return {"APPROVAL", wire::encode(message)};
+    return {"APPROVAL", wire::write(message)};
   }
 
  private:
@@ -53,9 +53,9 @@ class Recording {
  public:
   explicit Recording(const std::filesystem::path& folder) : journal_(Journal::open(folder, 1)) {}
   void review(int number) {
-    review_t message{};
+    wire::Review message;
     message.specimen = "S-" + std::to_string(number);
-    const std::string payload = wire::encode(message);
+    const std::string payload = wire::write(message);
     add("REVIEW", wire::stamp_header("REVIEW", payload, {number, "person", 1, number, "run"}));
     step(Message{"REVIEW", payload});
   }
@@ -135,9 +135,9 @@ TEST(Replay, FindsOutputsThatTheJournalHoldsTooManyOrTooFew) {
 
   const TemporaryFolder second;
   Recording short_one(second.path());
-  review_t message{};
+  wire::Review message;
   message.specimen = "S-1";
-  const std::string payload = wire::encode(message);
+  const std::string payload = wire::write(message);
   for (int i = 0; i < 2; ++i) short_one.add("REVIEW", wire::stamp_header("REVIEW", payload, {i, "p", 1, i, "run"}));
   CountingCore again;
   EXPECT_THAT(replay_journal(second.path() / "journal.lcm", again).difference, HasSubstr("does not hold"));
@@ -172,9 +172,9 @@ TEST(Replay, AFlippedBitInAnInputIsDamageNotADecision) {
 TEST(Fold, HandsOverWhatTheLastInputCausedAndTheJournalLacks) {
   const TemporaryFolder folder;
   auto journal = Journal::open(folder.path(), 1);
-  review_t message{};
+  wire::Review message;
   message.specimen = "S-1";
-  ASSERT_TRUE(journal->append(1, "REVIEW", wire::stamp_header("REVIEW", wire::encode(message), {1, "p", 1, 1, "run"})));
+  ASSERT_TRUE(journal->append(1, "REVIEW", wire::stamp_header("REVIEW", wire::write(message), {1, "p", 1, 1, "run"})));
   journal.reset();
   CountingCore core;
   Fold fold(core);
@@ -195,9 +195,9 @@ TEST(Replay, OfABusLogComparesWhatWasSaid) {
       ASSERT_TRUE(writer.append(1, message.channel,
                                 wire::stamp_header(message.channel, message.payload, {1, node, 1, 1, "run"})));
     };
-    review_t review{};
+    wire::Review review;
     review.specimen = "S-1";
-    for (int repeat = 0; repeat < 2; ++repeat) log("person", {"REVIEW", wire::encode(review)});
+    for (int repeat = 0; repeat < 2; ++repeat) log("person", {"REVIEW", wire::write(review)});
     log("analyser", CountingCore::approval(1));
   }
   CountingCore core;
@@ -214,7 +214,7 @@ TEST(Replay, OfABusLogWithMessagesOfAnotherVersionIsNoAgreement) {
   const auto path = folder.path() / "run.lcm";
   {
     LogWriter writer(path);
-    std::string message = wire::stamp_header("REVIEW", wire::encode(review_t{}), {1, "person", 1, 1, "run"});
+    std::string message = wire::stamp_header("REVIEW", wire::write(wire::Review{}), {1, "person", 1, 1, "run"});
     message[0] = static_cast<char>(message[0] ^ 1);
     ASSERT_TRUE(writer.append(1, "REVIEW", message));
   }

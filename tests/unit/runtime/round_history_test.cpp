@@ -5,13 +5,13 @@
 namespace nacre::runtime {
 namespace {
 
-round_summary_t round_zero() {
-  round_summary_t round{};
+wire::RoundSummary round_zero() {
+  wire::RoundSummary round;
   round.gap = round.gamut_hypervolume_staircase = 0.893;
-  round.n_calibration = 3;
-  round.after.n_modulus = 3;
+  round.calibration_count = 3;
+  round.after.modulus_count = 3;
   round.after.modulus_mean = 1e-9;
-  round.after.n_toughness = 3;
+  round.after.toughness_count = 3;
   round.after.toughness_mean = 0.0196;
   return round;
 }
@@ -19,16 +19,16 @@ round_summary_t round_zero() {
 TEST(RoundInWords, RoundZeroHasMeasuredNothingYet) {
   EXPECT_EQ(in_words(round_zero()),
             "round 0: nothing measured yet; model fitted to 3 base materials (errors E 0 %, T 2 %)");
-  EXPECT_EQ(in_words(round_summary_t{}), "round 0: nothing measured yet; model not fitted");
+  EXPECT_EQ(in_words(wire::RoundSummary{}), "round 0: nothing measured yet; model not fitted");
 }
 
 TEST(RoundInWords, LaterRoundsSayGapPredictionErrorsAndFit) {
-  round_summary_t round = round_zero();
+  wire::RoundSummary round = round_zero();
   round.round = 2;
   round.gap = 0.10071;
   round.measured_hypervolume_staircase = 0.7923;
-  round.n_calibration = 1;
-  round.held_out.n_toughness = 2;
+  round.calibration_count = 1;
+  round.held_out.toughness_count = 2;
   round.held_out.toughness_mean = 0.253;
   round.equilibrium = true;
   EXPECT_EQ(
@@ -44,7 +44,7 @@ TEST(RoundInWords, LaterRoundsSayGapPredictionErrorsAndFit) {
 }
 
 TEST(RoundInWords, ErrorsHaveTwoDigits) {
-  round_summary_t round = round_zero();
+  wire::RoundSummary round = round_zero();
   round.after.modulus_mean = 0.0634;
   round.after.toughness_mean = 0.0996;
   EXPECT_EQ(in_words(round),

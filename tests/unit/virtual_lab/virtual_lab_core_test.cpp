@@ -9,6 +9,8 @@
 #include "base/result.hpp"
 #include "laboratory/draw.hpp"
 #include "virtual_lab/experiment_text.hpp"
+#include "wire/from_json.hpp"
+#include "wire/schema.hpp"
 
 namespace nacre::virtual_lab {
 namespace {
@@ -117,9 +119,11 @@ TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherExperiment) {
 
 TEST(VirtualLabCore, AnUnknownLoadingProgrammeIsRefusedWithAWarningThatQuotesIt) {
   VirtualLabCore core(truth());
-  test_order_t cyclic = wire::to_wire(order("r1/a/tensile", "rigid", tester::TestKind::tensile));
-  cyclic.loading = "load to 0.01, unload";
-  const Outputs outputs = core.step(Message{.channel = "TEST_ORDER", .payload = wire::encode(cyclic)});
+  auto cyclic =
+      wire::to_json("test_order_t", wire::write(order("r1/a/tensile", "rigid", tester::TestKind::tensile))).value();
+  cyclic["loading"] = "load to 0.01, unload";
+  const Outputs outputs =
+      core.step(Message{.channel = "TEST_ORDER", .payload = wire::from_json("test_order_t", cyclic).value()});
   EXPECT_TRUE(outputs.messages.empty() && outputs.computes.empty());
   ASSERT_EQ(outputs.log.size(), 1u);
   EXPECT_THAT(outputs.log.front().text, testing::HasSubstr("load to 0.01, unload"));

@@ -143,54 +143,50 @@ inline RoundSummary round() {
   return summary;
 }
 
-inline diagnosis_t diagnosis() {
-  diagnosis_t m{};
+inline Diagnosis diagnosis() {
+  Diagnosis m;
   m.round = 1;
   m.verdict = "named";
   m.summary = "the machine gives way";
   m.effects.push_back({"machine_compliance", "machine", 1e-9, 0.0, 2e-9, "m/N"});
   m.candidates.push_back({"droplet_mixing", "excluded", 0.1, 0.9, 0.2});
-  m.next_experiments.push_back({"mix:0.65", 0, {0.0, 6.17e-4, 3.2}, 2, "monotonic", "thick against thin"});
+  m.gain = DiagnosedGain{0.2, 0.1, 0.5, 0.3, 0.6};
+  m.next_experiments.push_back({pattern::Mixture{0.65}, tester::TestKind::modulus, {}, 2, {}, "thick against thin"});
   return m;
+}
+
+inline RunStart run() { return {1, "0123456789abcdef0123456789abcdef", 1}; }
+inline DiagnoseRequest diagnose() { return {1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}}; }
+inline Approval approval() { return {1, pattern::Pattern(0x577fffe9fffdef), true, "someone", "a reason"}; }
+inline Review review() { return {"S-001", 2, false, "someone", "broke at the grip"}; }
+inline Ack ack() { return {7, {"0123456789abcdef0123456789abcdef", "ffffffffffffffffffffffffffffffff"}}; }
+inline NodeStatus status() {
+  NodeStatus status;
+  status.phase = "search";
+  status.progress = 0.5;
+  return status;
 }
 
 /// (channel, payload) of every row of the table.
 inline std::vector<std::pair<std::string, std::string>> payloads() {
-  run_t run{};
-  run.seed = 1;
-  run.scenario_hash = "0123456789abcdef0123456789abcdef";
-  run.schema_version = 1;
-  approval_t approval{};
-  approval.design = "577fffe9fffdef";
-  approval.approved = 1;
-  approval.by = "someone";
-  review_t review{};
-  review.specimen = "S-001";
-  review.revision = 2;
-  review.why = "broke at the grip";
-  ack_t ack{};
-  ack.hashes = {"0123456789abcdef0123456789abcdef", "ffffffffffffffffffffffffffffffff"};
-  node_status_t status{};
-  status.phase = "search";
-  status.progress = 0.5;
-  return {{"RUN", encode(run)},
+  return {{"RUN", write(run())},
           {"PARAMETERS", write(model())},
           {"SIMULATE", write(request())},
           {"SIMULATED", write(result())},
           {"FRACTURE", write(fracture())},
           {"GAMUT", write(gamut())},
           {"PROPOSAL", write(proposal())},
-          {"APPROVAL", encode(approval)},
+          {"APPROVAL", write(approval())},
           {"TEST_ORDER", write(order())},
           {"MEASUREMENT", write(measurement())},
-          {"REVIEW", encode(review)},
-          {"DIAGNOSE", write(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}})},
-          {"DIAGNOSIS", encode(diagnosis())},
+          {"REVIEW", write(review())},
+          {"DIAGNOSE", write(diagnose())},
+          {"DIAGNOSIS", write(diagnosis())},
           {"ROUND", write(round())},
           {"FAMILY", write(family())},
           {"FAMILY_GAMUT", write(family_gamut())},
-          {"ACK", encode(ack)},
-          {"STATUS", encode(status)}};
+          {"ACK", write(ack())},
+          {"STATUS", write(status())}};
 }
 
 }  // namespace nacre::wire::samples

@@ -1,0 +1,134 @@
+#pragma once
+// Messages that run a game rather than play it: RUN, what people decide, acknowledgements and the nodes' status.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nacre/ack_t.hpp"
+#include "nacre/approval_t.hpp"
+#include "nacre/node_status_t.hpp"
+#include "nacre/review_t.hpp"
+#include "nacre/run_t.hpp"
+#include "pattern/design.hpp"
+#include "wire/parts.hpp"
+
+namespace nacre::wire {
+
+/// RUN: which game is played.
+struct RunStart {
+  using Wire = run_t;
+  std::int64_t seed = 0;
+  std::string scenario_hash;
+  int schema_version = 1;  ///< of the message types
+  bool operator==(const RunStart&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("seed", m.seed);
+    field("scenario_hash", m.scenario_hash, kName);
+    field("schema_version", m.schema_version, Range{1, kCounted.most});
+  }
+};
+
+/// APPROVAL: a person's yes or no to one proposed design, or a design of the person's own.
+struct Approval {
+  using Wire = approval_t;
+  int round = -1;  ///< of the proposal; -1: a design of the person's own, to which only a yes makes sense
+  pattern::Design design;
+  bool approved = true;
+  std::string by, why;
+  bool operator==(const Approval&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("round", m.round, Range{-1, kRoundNumber.most});
+    field("design", m.design);
+    field("approved", m.approved);
+    field("by", m.by);
+    field("why", m.why);
+  }
+  std::string contradiction() const {
+    return round >= 0 || approved ? "" : "round: -1 is outside [0, 100000] where a design is refused";
+  }
+};
+
+/// REVIEW: whether one specimen is valid; the highest revision wins.
+struct Review {
+  using Wire = review_t;
+  std::string specimen;
+  int revision = 0;
+  bool valid = false;
+  std::string by, why;
+  bool operator==(const Review&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("specimen", m.specimen, kName);
+    field("revision", m.revision, kCounted);
+    field("valid", m.valid);
+    field("by", m.by);
+    field("why", m.why);
+  }
+};
+
+/// ACK: messages that stand in the sender's journal.
+struct Ack {
+  using Wire = ack_t;
+  std::int64_t journal = 0;  ///< when that journal was begun, as in STATUS
+  std::vector<std::string> hashes;
+  bool operator==(const Ack&) const = default;
+
+  static std::string hash_fault(std::string_view hash) {
+    const bool is_hex = hash.size() == 32 && hash.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    return is_hex ? "" : fmt::format("\"{}\" is not a hash of 32 hex digits", hash.substr(0, 40));
+  }
+  static void fields(auto& field, auto& m) {
+    field("journal", m.journal);
+    field.count("n_hashes", m.hashes);
+    field("hashes", m.hashes, hash_fault);
+  }
+};
+
+/// STATUS: what a node says of itself; the meaning of each field stands in node_status_t.lcm.
+struct NodeStatus {
+  using Wire = node_status_t;
+  std::int64_t journal = 0;
+  bool ready = false, finished = false;
+  std::string phase;
+  int round = 0;
+  double progress = 0.0;  ///< -1 when unknown
+  double eta_s = 0.0;     ///< -1 when unknown
+  std::int64_t received = 0, published = 0, retries = 0, duplicates = 0, rejected = 0, lost = 0, dropped = 0;
+  int unacknowledged = 0, queued = 0, owed = 0, computing = 0;
+  std::int64_t journal_bytes = 0;
+  std::string work, last_problem;
+  bool operator==(const NodeStatus&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("journal", m.journal);
+    field("ready", m.ready);
+    field("finished", m.finished);
+    field("phase", m.phase);
+    field("round", m.round);
+    field("progress", m.progress, Range{-1.0, 1.0});
+    field("eta_s", m.eta_s);
+    counters(field, m);
+  }
+  /// Counters, queues, work and last problem.
+  static void counters(auto& field, auto& m) {
+    field("received", m.received);
+    field("published", m.published);
+    field("retries", m.retries);
+    field("duplicates", m.duplicates);
+    field("rejected", m.rejected);
+    field("lost", m.lost);
+    field("dropped", m.dropped);
+    field("unacknowledged", m.unacknowledged, kCounted);
+    field("queued", m.queued);
+    field("owed", m.owed);
+    field("computing", m.computing, kCounted);
+    field("journal_bytes", m.journal_bytes);
+    field("work", m.work);
+    field("last_problem", m.last_problem);
+  }
+};
+
+}  // namespace nacre::wire

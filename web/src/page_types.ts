@@ -1,0 +1,358 @@
+// The server's responses, SI units (docs/FORMATS.md, "Dashboard"). Written by nacre_page_types from the tables of
+// fields in lib/dashboard: not to be edited.
+
+export interface RunInfo {
+  run: string;
+  scenario: string;
+  fidelity: string;
+  rounds: number;
+  approval: boolean;
+  virtual_lab: boolean;
+  replicates: number;
+  started: string;
+  nacre_version: string;
+  commit: string;
+  report: boolean;
+  user: string;
+}
+
+export interface NodeState {
+  node: string;
+  state: "starting" | "running" | "finished" | "ended" | "silent";
+  age_s: number;
+  phase: string;
+  round: number;
+  progress: number | null;
+  eta_s: number | null;
+  received: number;
+  published: number;
+  retries: number;
+  duplicates: number;
+  rejected: number;
+  lost: number;
+  dropped: number;
+  unacknowledged: number;
+  queued: number;
+  owed: number;
+  computing: number;
+  journal_bytes: number;
+  work: string;
+  last_problem: string;
+}
+
+export interface Live {
+  playing: boolean;
+  data: string;
+  nodes: NodeState[];
+}
+
+export interface Errors {
+  n_modulus: number;
+  modulus_mean: number;
+  modulus_max: number;
+  n_toughness: number;
+  toughness_mean: number;
+  toughness_max: number;
+  toughness_spearman: number;
+}
+
+export interface Summary {
+  round: number;
+  fidelity: string;
+  n_calibration: number;
+  measured_hypervolume_staircase: number;
+  measured_hypervolume_polygon: number;
+  gamut_hypervolume_staircase: number;
+  gamut_hypervolume_polygon: number;
+  gap: number;
+  signed_gap: number;
+  hypervolume_error: number;
+  before: Errors | null;
+  after: Errors | null;
+  held_out: Errors | null;
+  equilibrium: boolean;
+  last: boolean;
+  decided_by: string;
+}
+
+export interface Proposed {
+  design: string;
+  modulus_pa: number;
+  toughness_pa: number;
+  bin: number;
+  reason: string;
+}
+
+export interface Round {
+  round: number;
+  summary: Summary | null;
+  gamut_count: number;
+  measured_front: [number, number][];
+  benchmark: [number, number][];
+  proposals: Proposed[];
+  parameters: Record<string, number>;
+  verdict: string | null;
+}
+
+export interface Measured {
+  design: string;
+  round: number;
+  rigid_fraction: number;
+  modulus_pa: number;
+  modulus_sd_pa: number;
+  modulus_count: number;
+  toughness_pa: number;
+  toughness_sd_pa: number;
+  toughness_count: number;
+}
+
+export interface Rounds {
+  rounds: Round[];
+  measured: Measured[];
+}
+
+export interface Curve {
+  strain: number[];
+  stress_pa: number[];
+}
+
+export interface Specimen {
+  specimen: string;
+  round: number;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  batch: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  valid: boolean;
+  note: string;
+  curve: Curve | null;
+}
+
+export interface Design {
+  design: string;
+  rigid_fraction: number;
+  violation: string | null;
+  proposals: {
+  round: number;
+  design: string;
+  modulus_pa: number;
+  toughness_pa: number;
+  bin: number;
+  reason: string;
+}[];
+  simulated: {
+  round: number;
+  failure: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  curve: Curve | null;
+}[];
+  cracks: {
+  round: number;
+  film: boolean;
+  broken: number;
+  branches: number;
+  separate_cracks: number;
+  path_ratio: number | null;
+  path: {
+  crosses: boolean;
+  length_m: number;
+  straight_length_m: number;
+  bridged_share: number;
+  material_share: number[];
+  path: number[];
+} | null;
+}[];
+  specimens: Specimen[];
+}
+
+export interface DesignState {
+  design: string;
+  state: string;
+  proposed_in_round: number | null;
+  ordered: number;
+  printed: number;
+  measured: number;
+  valid: number;
+  by: string;
+  why: string;
+}
+
+export interface Order {
+  order: string;
+  round: number;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  loading: string;
+  batch: string;
+  replicates: number;
+  arrived: number;
+  valid: number;
+  complete: boolean;
+  reason: string;
+}
+
+export interface LaboratorySpecimen {
+  specimen: string;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  batch: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  points: number;
+  valid: boolean;
+  note: string;
+  by: string;
+  why: string;
+}
+
+export interface Group {
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  state: string;
+  tested: string[];
+  valid: string[];
+  proposed_outliers: {
+  specimen: string;
+  reasons: string[];
+}[];
+  wanted: number;
+  mean_pa: number | null;
+  scatter: number | null;
+  mean_without_pa: number | null;
+  scatter_without: number | null;
+  representative: string;
+}
+
+export interface Laboratory {
+  proposal: {
+  round: number;
+  simulations: number;
+  designs: Proposed[];
+} | null;
+  designs: DesignState[];
+  orders: Order[];
+  specimens: LaboratorySpecimen[];
+  groups: Group[];
+}
+
+export interface Effect {
+  name: string;
+  family: string;
+  parameter: number;
+  interval_low: number;
+  interval_high: number;
+  unit: string;
+  explanation: string;
+}
+
+export interface CandidateEffect {
+  name: string;
+  status: "in_set" | "excluded" | "invisible" | "not_applicable";
+  statistic: number;
+  p_family_wise: number;
+  absorption: number;
+  family: string;
+  explanation: string;
+}
+
+export interface Gain {
+  held_out_error_before: number;
+  held_out_error_after: number;
+  relative_reduction: number;
+  reduction_low: number;
+  reduction_high: number;
+}
+
+export interface Experiment {
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  replicates: number;
+  loading: string;
+  reason: string;
+}
+
+export interface Diagnosis {
+  round: number;
+  verdict: string;
+  summary: string;
+  against: string;
+  effects: Effect[];
+  candidates: CandidateEffect[];
+  gain: Gain | null;
+  next_experiments: Experiment[];
+}
+
+export interface Values {
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+}
+
+export interface FamilyDesign {
+  design: string;
+  is_seed: boolean;
+  rigid_fraction: number;
+  measured: Values;
+  global_model: Values;
+  family_model: Values;
+  film: boolean;
+}
+
+export interface Family {
+  number: number;
+  name: string;
+  round: number;
+  is_validated: boolean;
+  simulations: number;
+  samples: number;
+  gamut_count: number;
+  designs: FamilyDesign[];
+  errors: {
+  seeds: {
+  global: Errors | null;
+  family: Errors | null;
+};
+  chosen: {
+  global: Errors | null;
+  family: Errors | null;
+};
+};
+  over_fits: string[];
+  parameters: Record<string, number>;
+}
+
+export interface NamedSeeds {
+  name: string;
+  seeds: string[];
+}
+
+export interface Families {
+  enabled: boolean;
+  stage: Family[];
+  grouping: {
+  from: "file" | "proposal";
+  problem: string;
+  families: NamedSeeds[];
+  near_pareto: string[];
+};
+}
