@@ -16,7 +16,7 @@ namespace nacre::laboratory {
 struct Experiment {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
-  tester::TestConditions conditions;
+  tester::TestConditions conditions = {};
   tester::Fidelity fidelity = tester::Fidelity::full;
   tester::Loading loading = {};  ///< of a coupon; every other test is monotonic
   bool operator==(const Experiment&) const = default;
@@ -24,9 +24,9 @@ struct Experiment {
 
 /// The specimen's true response, without scatter and before the machine: a modulus, or a curve.
 struct TrueResponse {
-  double modulus_pa = 0.0;  ///< test `modulus`
-  tester::Curve curve;      ///< `toughness` and `tensile`
-  std::string remark;       ///< what a lab book would note, or empty
+  double modulus_pa = 0.0;   ///< test `modulus`
+  tester::Curve curve = {};  ///< `toughness` and `tensile`
+  std::string remark = {};   ///< what a lab book would note, or empty
   /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth
   /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
@@ -40,7 +40,7 @@ Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
 /// One replicate: how it is called and where it was printed.
 struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
-  std::string batch;
+  std::string batch = {};
   int print_order = 0;
   int number = 1;  ///< among those of its order, from 1: which specimen of a TrueResponse with several it is
 };
