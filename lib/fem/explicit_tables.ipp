@@ -6,7 +6,8 @@ namespace nacre::fem::NACRE_SIMD {
 
 template <class Real>
 constexpr ExplicitKernel<Real> kTable = {advance<NeoHookean<Real>, false>, advance<NeoHookean<Real>, true>,
-                                         advance<NeoHookeanMean<Real>, false>, first_inverted<Real>, internal_forces<NeoHookean<Real>>};
+                                         advance<NeoHookeanMean<Real>, false>, first_inverted<Real>,
+                                         internal_forces<NeoHookean<Real>>};
 
 extern const ExplicitKernel<float> kSingle = kTable<float>;
 extern const ExplicitKernel<double> kDouble = kTable<double>;
