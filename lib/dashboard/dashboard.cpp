@@ -160,7 +160,15 @@ Response Dashboard::live(const Request&) {
                         {"nodes", nodes_json(nodes, is_known_to_be_over(run_))}});
 }
 
-Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*run_.record())); }
+Response Dashboard::rounds(const Request&) {
+  const auto record = run_.record();
+  const std::lock_guard lock(rounds_mutex_);
+  if (rounds_of_ != record) {
+    rounds_ = json_response(rounds_json(*record)).body;
+    rounds_of_ = record;
+  }
+  return {.body = rounds_, .headers = {}};
+}
 
 Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {
