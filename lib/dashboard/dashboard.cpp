@@ -167,7 +167,17 @@ Response Dashboard::live(const Request&) {
   return row_response(LiveRow{is_playing(nodes), data, node_rows(nodes, is_known_to_be_over(run_))});
 }
 
-Response Dashboard::rounds(const Request&) { return row_response(rounds_row(*run_.record(), desk_.search())); }
+Response Dashboard::rounds(const Request&) {
+  const auto record = run_.record();
+  const auto search = desk_.search();
+  const std::lock_guard lock(rounds_mutex_);
+  if (rounds_of_ != record || rounds_search_ != search) {
+    rounds_ = row_response(rounds_row(*record, search)).body;
+    rounds_of_ = record;
+    rounds_search_ = search;
+  }
+  return {.body = rounds_, .headers = {}};
+}
 
 Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {

@@ -85,6 +85,10 @@ class Dashboard {
   Json laboratory_;        ///< as last read; reading a long journal takes a while
   std::int64_t laboratory_fresh_until_us_ = 0;
   run::Run run_;
+  std::mutex rounds_mutex_;
+  std::shared_ptr<const run::RunRecord> rounds_of_;  ///< the record that `rounds_` was made of
+  std::optional<LiveSearch::Progress> rounds_search_;
+  std::string rounds_;                               ///< JSON; of 10,000 specimens it takes a while
   PageFiles page_;
   FamilyFolder family_folder_;
   Films films_;

@@ -22,6 +22,7 @@ class LiveSearch {
   struct Progress {
     int round = 0;
     int patterns = 0;
+    bool operator==(const Progress&) const = default;
   };
   /// Nothing before the first result.
   std::optional<Progress> progress() const;

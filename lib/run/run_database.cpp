@@ -92,12 +92,14 @@ ClosedRounds closed_rounds(SQLite::Database& db) {
 }
 
 void keep_samples(SQLite::Database& db, std::int64_t message, std::span<const explore::Evaluated> samples) {
-  SQLite::Statement insert(db, "INSERT INTO samples VALUES (?,?,?,?)");
+  SQLite::Statement insert(db, "INSERT INTO samples VALUES (?,?,?,?,?)");
+  int place = 0;
   for (const explore::Evaluated& sample : samples) {
     insert.bind(1, message);
-    insert.bind(2, static_cast<std::int64_t>(sample.pattern.bits()));
-    insert.bind(3, sample.performance.modulus_pa);
-    insert.bind(4, sample.performance.toughness_pa);
+    insert.bind(2, ++place);
+    insert.bind(3, static_cast<std::int64_t>(sample.pattern.bits()));
+    insert.bind(4, sample.performance.modulus_pa);
+    insert.bind(5, sample.performance.toughness_pa);
     insert.exec();
     insert.reset();
   }
@@ -136,6 +138,7 @@ RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
   try {
     database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 30'000);
     store::distrust(*database_);
+    database_->exec("PRAGMA page_size = 16384");  // of a new file: a message of 2 kB would fill half a page of 4 kB
     database_->exec("PRAGMA journal_mode = WAL");
     const int version = database_->execAndGet("PRAGMA user_version").getInt();
     if (version == 0) {

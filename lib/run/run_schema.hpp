@@ -16,9 +16,9 @@ inline constexpr const char* kRunTables = R"sql(
   ) STRICT;
   CREATE INDEX messages_of_channel ON messages (channel, round);
   CREATE TABLE samples (
-    message INTEGER NOT NULL, pattern INTEGER NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL
-  ) STRICT;
-  CREATE INDEX samples_of_message ON samples (message);
+    message INTEGER NOT NULL, place INTEGER NOT NULL, pattern INTEGER NOT NULL, modulus_pa REAL NOT NULL,
+    toughness_pa REAL NOT NULL, PRIMARY KEY (message, place)
+  ) STRICT, WITHOUT ROWID;
 )sql";
 
 /// SI units; hypervolumes and gap in GPa MPa; errors relative. A ROUND that says `last` stands, whatever comes after.

@@ -146,9 +146,9 @@ TEST(Report, HostileTextsDoNotBecomeMarkup) {
     round.summary->decided_by = evil;
     wire::Diagnosis& diagnosis = round.diagnosis.emplace();
     diagnosis.verdict = diagnosis.summary = evil;
-    effect_t& effect = diagnosis.effects.emplace_back();
+    wire::DiagnosedEffect& effect = diagnosis.effects.emplace_back();
     effect.name = effect.unit = evil;
-    candidate_t& candidate = diagnosis.candidates.emplace_back();
+    wire::DiagnosedCandidate& candidate = diagnosis.candidates.emplace_back();
     candidate.name = candidate.status = evil;
     round.proposals.push_back({.design = pattern::Mixture{0.65}, .reason = evil});
     round.simulated[evil] =

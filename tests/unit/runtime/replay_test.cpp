@@ -37,7 +37,7 @@ class CountingCore : public NodeCore {
   static Message approval(int round) {
     wire::Approval message;
     message.round = round;
-    message.design = "soft";
+    message.design = pattern::Mixture{0.0};
     return {"APPROVAL", wire::write(message)};
   }
 
