@@ -111,9 +111,40 @@ export interface Rounds {
   measured: Measured[];
 }
 
+export interface ProposedInRound {
+  round: number;
+  design: string;
+  modulus_pa: number;
+  toughness_pa: number;
+  bin: number;
+  reason: string;
+}
+
 export interface Curve {
   strain: number[];
   stress_pa: number[];
+}
+
+export interface SimulatedInRound {
+  round: number;
+  failure: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  curve: Curve | null;
+}
+
+export interface CrackInRound {
+  round: number;
+  film: boolean;
+  broken: number;
+  branches: number;
+  separate_cracks: number;
+  path_ratio: number | null;
+  bridged_share: number | null;
+  soft_share: number | null;
+  rigid_share: number | null;
+  interface_share: number | null;
+  crosses: boolean | null;
 }
 
 export interface Specimen {
@@ -136,38 +167,16 @@ export interface Design {
   design: string;
   rigid_fraction: number;
   violation: string | null;
-  proposals: {
-  round: number;
-  design: string;
-  modulus_pa: number;
-  toughness_pa: number;
-  bin: number;
-  reason: string;
-}[];
-  simulated: {
-  round: number;
-  failure: string;
-  modulus_pa: number | null;
-  toughness_pa: number | null;
-  curve: Curve | null;
-}[];
-  cracks: {
-  round: number;
-  film: boolean;
-  broken: number;
-  branches: number;
-  separate_cracks: number;
-  path_ratio: number | null;
-  path: {
-  crosses: boolean;
-  length_m: number;
-  straight_length_m: number;
-  bridged_share: number;
-  material_share: number[];
-  path: number[];
-} | null;
-}[];
+  proposals: ProposedInRound[];
+  simulated: SimulatedInRound[];
+  cracks: CrackInRound[];
   specimens: Specimen[];
+}
+
+export interface OpenProposal {
+  round: number;
+  simulations: number;
+  designs: Proposed[];
 }
 
 export interface DesignState {
@@ -218,6 +227,11 @@ export interface LaboratorySpecimen {
   why: string;
 }
 
+export interface ProposedOutlier {
+  specimen: string;
+  reasons: string[];
+}
+
 export interface Group {
   design: string;
   test: string;
@@ -228,10 +242,7 @@ export interface Group {
   state: string;
   tested: string[];
   valid: string[];
-  proposed_outliers: {
-  specimen: string;
-  reasons: string[];
-}[];
+  proposed_outliers: ProposedOutlier[];
   wanted: number;
   mean_pa: number | null;
   scatter: number | null;
@@ -241,11 +252,7 @@ export interface Group {
 }
 
 export interface Laboratory {
-  proposal: {
-  round: number;
-  simulations: number;
-  designs: Proposed[];
-} | null;
+  proposal: OpenProposal | null;
   designs: DesignState[];
   orders: Order[];
   specimens: LaboratorySpecimen[];
@@ -318,6 +325,16 @@ export interface FamilyDesign {
   film: boolean;
 }
 
+export interface ModelErrors {
+  global: Errors | null;
+  family: Errors | null;
+}
+
+export interface FamilyErrors {
+  seeds: ModelErrors;
+  chosen: ModelErrors;
+}
+
 export interface Family {
   number: number;
   name: string;
@@ -327,16 +344,7 @@ export interface Family {
   samples: number;
   gamut_count: number;
   designs: FamilyDesign[];
-  errors: {
-  seeds: {
-  global: Errors | null;
-  family: Errors | null;
-};
-  chosen: {
-  global: Errors | null;
-  family: Errors | null;
-};
-};
+  errors: FamilyErrors;
   over_fits: string[];
   parameters: Record<string, number>;
 }
@@ -346,13 +354,15 @@ export interface NamedSeeds {
   seeds: string[];
 }
 
-export interface Families {
-  enabled: boolean;
-  stage: Family[];
-  grouping: {
+export interface Grouping {
   from: "file" | "proposal";
   problem: string;
   families: NamedSeeds[];
   near_pareto: string[];
-};
+}
+
+export interface Families {
+  enabled: boolean;
+  stage: Family[];
+  grouping: Grouping;
 }
