@@ -24,7 +24,7 @@ struct Order {
   int round = 0;
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
-  tester::TestConditions conditions;
+  tester::TestConditions conditions = {};
   tester::Loading loading = {};  ///< of a coupon
   int replicates = 0;
   std::string batch;
@@ -35,7 +35,7 @@ struct Order {
 struct DiscriminationTest {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
-  tester::TestConditions conditions;
+  tester::TestConditions conditions = {};
   tester::Loading loading = {};  ///< of a coupon
   int replicates = 0;
 };

@@ -203,7 +203,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   const auto send_approval = [&](int round, const pattern::Design& design, bool yes) {
     wire::Approval approval;
     approval.round = round;
-    approval.design = design.name();
+    approval.design = design;
     approval.approved = yes;
     approval.by = "a person";
     game.publish({"APPROVAL", wire::write(approval)});

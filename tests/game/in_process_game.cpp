@@ -9,6 +9,7 @@
 #include "runtime/log_file.hpp"
 #include "wire/channels.hpp"
 #include "wire/header.hpp"
+#include "wire/schema.hpp"
 
 namespace nacre::game_test {
 namespace {

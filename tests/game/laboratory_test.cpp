@@ -283,7 +283,7 @@ class ApprovalGame : public PersonGame {
   void send_approval(const pattern::Design& design, bool approved, int round = 0) {
     wire::Approval message;
     message.round = round;
-    message.design = design.name();
+    message.design = design;
     message.approved = approved;
     message.by = "head of the lab";
     message.why = approved ? "go" : "too thin to print";
@@ -417,7 +417,7 @@ TEST(Approval, TheOrderOfApprovalsDoesNotMatter) {
     if (backwards) std::reverse(designs.begin(), designs.end());
     for (const auto& each : designs) {
       wire::Approval message;
-      message.design = each.design.name();
+      message.design = each.design;
       message.approved = true;
       message.by = "lab";
       game.publish({"APPROVAL", wire::write(message)});

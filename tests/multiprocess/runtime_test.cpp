@@ -29,6 +29,7 @@
 #include "runtime/work_pool.hpp"
 #include "wire/channels.hpp"
 #include "wire/convert.hpp"
+#include "wire/schema.hpp"
 
 namespace nacre {
 namespace {
