@@ -55,7 +55,8 @@ void draw_axes(Canvas& canvas, const ChartAxes& axes) {
     canvas.line(tick, 1.0, kInk);
     canvas.text({x, kChartBottom + 18.0}, fmt::format("{:g}", std::round(value / across) * across), number);
   }
-  const std::array<CanvasPoint, 3> frame = {{{kChartLeft, kChartTop - 6.0}, {kChartLeft, kChartBottom}, {kChartRight, kChartBottom}}};
+  const std::array<CanvasPoint, 3> frame = {
+      {{kChartLeft, kChartTop - 6.0}, {kChartLeft, kChartBottom}, {kChartRight, kChartBottom}}};
   canvas.line(frame, 1.2, kInk);
   const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = TextAnchor::centre};
   canvas.text({0.5 * (kChartLeft + kChartRight), kChartBottom + 38.0}, "nominal strain in %", label);

@@ -1,6 +1,6 @@
 #pragma once
 // Values and tables of fields (base/fields.hpp) as JSON. Designs, patterns, kinds of test, fidelities and loadings are
-// their texts; what is absent is null, and so is a struct whose FieldsOf has a holds_nothing() that says so. SI units, as everywhere.
+// their texts; what is absent is null, and so is a struct whose FieldsOf has a holds_nothing() that says so. SI units.
 
 #include <optional>
 #include <string>

@@ -8,6 +8,7 @@ export interface RunInfo {
   rounds: number;
   approval: boolean;
   virtual_lab: boolean;
+  diagnosis: boolean;
   replicates: number;
   started: string;
   nacre_version: string;

@@ -31,7 +31,8 @@ function activityOf(nodes: NodeState[]): string {
 function playingStatus(info: RunInfo, live: Live): RunStatus {
   const nodes = live.nodes.filter((n) => n.state === "running");
   const round = Math.max(0, ...nodes.map((n) => n.round));
-  const place = round === 0 ? `preparing round 1 of ${info.rounds}` : `round ${round} of ${Math.max(info.rounds, round)}`;
+  const place =
+    round === 0 ? `preparing round 1 of ${info.rounds}` : `round ${round} of ${Math.max(info.rounds, round)}`;
   const waiting = Math.max(0, ...nodes.map(toApprove));
   if (waiting > 0)
     return {
