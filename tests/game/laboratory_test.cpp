@@ -417,6 +417,7 @@ TEST(Approval, TheOrderOfApprovalsDoesNotMatter) {
     if (backwards) std::reverse(designs.begin(), designs.end());
     for (const auto& each : designs) {
       wire::Approval message;
+      message.round = 0;
       message.design = each.design;
       message.approved = true;
       message.by = "lab";
