@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
 #include <iterator>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -30,13 +28,6 @@ bool is_young(const std::filesystem::path& file) {
 std::uint64_t inode_of(const std::filesystem::path& file) {
   struct stat status {};
   return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
-}
-
-/// The first copy of the header of SQLite's WAL index (sqlite.org/walformat.html), which every write changes.
-std::string wal_index_header(const std::filesystem::path& database) {
-  std::string header(48, '\0');
-  std::ifstream(database.string() + "-shm", std::ios::binary).read(header.data(), std::ssize(header));
-  return header;
 }
 
 /// What `read` makes of the file, opened read-only.
@@ -105,13 +96,30 @@ bool is_diagnosed(const std::filesystem::path& folder) {
 Run::Run(const std::filesystem::path& folder, const std::string& database)
     : database_(folder / database), is_diagnosed_(is_diagnosed(folder)) {}
 
-std::string Run::version() const {
-  // Without SQLite. Times of files are not enough: two writes within a tick of the kernel's clock have the same.
-  std::string version;
-  struct stat status {};
-  if (::stat(database_.c_str(), &status) == 0)
-    version = fmt::format("{:x}-{:x}-{:x}", status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
-  return fmt::format("{}.{:x}", version, std::hash<std::string>()(wal_index_header(database_)));
+Run::~Run() = default;
+
+std::string Run::version() {
+  const std::lock_guard lock(mutex_);
+  return version_now();
+}
+
+/// Asks SQLite alone: a process that opened the files by other means would lose its locks when it closed them
+/// (sqlite.org/howtocorrupt.html, 2.2), and the analyser, which reads its own run for the report, is the writer.
+std::string Run::version_now() {
+  const std::uint64_t file = inode_of(database_);
+  if (file == 0) return {};
+  try {
+    if (!watching_ || std::exchange(watched_, file) != file) {
+      watched_ = file;
+      watching_ = std::make_unique<SQLite::Database>(database_.string(), SQLite::OPEN_READONLY, 10'000);
+      ++watches_;
+    }
+    const std::int64_t writes = watching_->execAndGet("PRAGMA data_version").getInt64();
+    return fmt::format("{:x}-{}-{}", file, watches_, writes);
+  } catch (const SQLite::Exception& error) {
+    watching_.reset();
+    return fmt::format("{:x} {}", file, error.what());
+  }
 }
 
 void Run::read_new_messages() {
@@ -134,7 +142,7 @@ void Run::read_new_messages() {
 
 void Run::refresh() {
   // The version is taken before reading, so that a write in between is read once more, never missed.
-  const std::string now = version();
+  const std::string now = version_now();
   if (now == read_version_ || !std::filesystem::exists(database_)) return;
   try {
     read_new_messages();

@@ -12,6 +12,10 @@
 #include "run/recording.hpp"
 #include "run/run_record.hpp"
 
+namespace SQLite {
+class Database;
+}
+
 namespace nacre::run {
 
 /// Reads what has been added since the last call. Calls may come from any thread; all throw InputError where run.db
@@ -20,9 +24,10 @@ class Run {
  public:
   /// `database`: the name of run.db in the folder.
   explicit Run(const std::filesystem::path& folder, const std::string& database = "run.db");
+  ~Run();
 
   /// Changes with every write of the analyser.
-  std::string version() const;
+  std::string version();
   /// Without gamuts; empty before the analyser's first write.
   std::shared_ptr<const RunRecord> record();
   /// With the gamuts of rounds and families, which are most of a large run.
@@ -41,6 +46,7 @@ class Run {
     std::shared_ptr<const Gamut> gamut;
   };
   void refresh();
+  std::string version_now();
   void read_new_messages();
   template <class Chunk>
   std::shared_ptr<const Gamut> kept_gamut(std::map<int, Kept>& kept, int number, const Ids& ids);
@@ -48,6 +54,9 @@ class Run {
   std::filesystem::path database_;
   bool is_diagnosed_ = true;
   std::mutex mutex_;
+  std::unique_ptr<SQLite::Database> watching_;  ///< tells whether somebody has written
+  std::uint64_t watched_ = 0;                   ///< inode of its file
+  int watches_ = 0;                             ///< how often it was opened
   std::string read_version_;
   std::uint64_t file_ = 0;    ///< inode: a database made anew is another
   std::int64_t last_id_ = 0;  ///< of the messages read

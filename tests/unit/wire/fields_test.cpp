@@ -12,9 +12,9 @@
 namespace nacre::wire {
 namespace {
 
-class FieldNames;
+template <class Names>
 struct Columns {
-  FieldNames& names;
+  Names& names;
   void operator()(std::string_view name, auto&&...) { names.add(std::string(name) + "[]"); }
   void single(std::string_view name, auto&&...) { names.add(std::string(name) + "[]"); }
 };
@@ -37,7 +37,7 @@ class FieldNames {
   void single(std::string_view name, auto&&...) { add(std::string(name) + "[]"); }
   template <class Element>
   void columns(const std::vector<Element>&, const auto& table) {
-    Columns columns{*this};
+    Columns<FieldNames> columns{*this};
     Element element{};
     table(columns, element);
   }
