@@ -38,7 +38,7 @@ const painted = (on, selector) =>
 
 test("a live game is shown and followed", async () => {
   await page.locator(".nodes li").nth(4).waitFor();
-  assert.match(await page.locator(".standing").innerText(), /^round \d of 1: /);
+  assert.match(await page.locator(".standing").innerText(), /^(preparing )?round \d of 1: /);
   await page.locator(".units .unit-button").first().waitFor({ timeout: 60_000 });
   await photograph(page, "game-live");
   await view(page, "nodes");
