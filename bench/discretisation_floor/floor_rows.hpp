@@ -12,6 +12,9 @@
 
 namespace nacre::discretisation_floor {
 
+/// Share of rigid pixels that most proposals exceed: layouts with fewer and with more are told apart.
+inline constexpr double kManyRigid = 0.75;
+
 /// Layouts x parameter sets that are compared.
 struct FloorPlan {
   tester::Fidelity fidelity = tester::Fidelity::preview;

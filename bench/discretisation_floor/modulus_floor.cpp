@@ -11,8 +11,6 @@
 namespace nacre::discretisation_floor {
 namespace {
 
-constexpr double kManyRigid = 0.75;  // most proposals have more
-
 std::vector<double> log_moduli(const FloorPlan& plan, const material::ModulusParameters& theta, int refinement,
                                int threads) {
   std::vector<double> logs(plan.layouts.size());

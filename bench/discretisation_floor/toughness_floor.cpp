@@ -11,7 +11,6 @@
 namespace nacre::discretisation_floor {
 namespace {
 
-constexpr double kManyRigidPixels = 0.75;
 constexpr std::size_t kLeastPairs = 4;  // of a parameter set that is used
 constexpr double kMiddleFraction = 0.675, kFractionUnit = 0.1;
 
@@ -132,7 +131,7 @@ ToughnessFloor toughness_floor(const FloorPlan& plan, const study::StudyTable& t
       const FeatureVector residual = pair.change - line.middle - pair.z * line.slope;
       floor.layout += residual * residual.transpose();
       residuals_of_layout[pair.layout].push_back(residual[1]);
-      residuals[plan.layouts[pair.layout].rigid_fraction() >= kManyRigidPixels ? 1 : 0].push_back(residual[1]);
+      residuals[plan.layouts[pair.layout].rigid_fraction() >= kManyRigid ? 1 : 0].push_back(residual[1]);
     }
     freedom += static_cast<double>(own.size()) - 1.0;
     slope_freedom += static_cast<double>(own.size()) - 2.0;

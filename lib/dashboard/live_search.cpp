@@ -1,22 +1,11 @@
 #include "dashboard/live_search.hpp"
 
-#include <charconv>
+#include "base/names.hpp"
 
 namespace nacre::dashboard {
 
-std::optional<int> round_of_search(std::string_view request_id) {
-  constexpr std::string_view kPrefix = "proposal_agent/r";
-  if (!request_id.starts_with(kPrefix)) return std::nullopt;
-  request_id.remove_prefix(kPrefix.size());
-  int round = 0;
-  const auto [end, fault] = std::from_chars(request_id.begin(), request_id.end(), round);
-  request_id.remove_prefix(end - request_id.begin());
-  if (fault != std::errc() || !request_id.starts_with("/s")) return std::nullopt;
-  return round;
-}
-
 void LiveSearch::take(const wire::SimulateResult& result) {
-  const auto round = round_of_search(result.request_id);
+  const auto round = number_between("proposal_agent/r", "/s", result.request_id);  // of a search alone
   const std::lock_guard lock(mutex_);
   if (!round || *round < round_) return;
   if (*round > round_) {

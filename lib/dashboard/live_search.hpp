@@ -5,7 +5,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "run/run_record.hpp"
 #include "wire/convert.hpp"
@@ -35,9 +34,5 @@ class LiveSearch {
   std::set<std::uint64_t> known_;
   run::Gamut gamut_;
 };
-
-/// The round of a request of the proposal agent's search (proposal_agent/rN/sK/...); nothing for other requests, such
-/// as those with perturbed constants.
-std::optional<int> round_of_search(std::string_view request_id);
 
 }  // namespace nacre::dashboard
