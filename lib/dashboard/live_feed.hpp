@@ -22,7 +22,7 @@ class LiveFeed {
     std::function<std::unique_ptr<runtime::Bus>()> open;
     /// Identifies the bus: a resumed run may play on another port.
     std::function<std::string()> identity;
-    /// Hands out the payloads of SIMULATED that were recorded before, on the listening thread. May throw InputError.
+    /// Hands out the payloads of SIMULATED that were recorded before, on the listening thread.
     std::function<void(const std::function<void(const std::string& payload)>& take)> recorded;
   };
   explicit LiveFeed(Source source);

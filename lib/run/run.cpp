@@ -109,9 +109,10 @@ std::string Run::version_now() {
   const std::uint64_t file = inode_of(database_);
   if (file == 0) return {};
   try {
-    if (!watching_ || std::exchange(watched_, file) != file) {
+    if (!watching_ || watched_ != file) {
       watched_ = file;
       watching_ = std::make_unique<SQLite::Database>(database_.string(), SQLite::OPEN_READONLY, 10'000);
+      store::distrust(*watching_);
       ++watches_;
     }
     const std::int64_t writes = watching_->execAndGet("PRAGMA data_version").getInt64();

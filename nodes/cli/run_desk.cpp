@@ -23,13 +23,21 @@ constexpr double kPatience_s = 8.0;
 
 namespace {
 
-/// The results of the farm in a recording of the bus that may be growing.
+/// The results of the farm since the last published gamut, in a recording of the bus that may be growing. Of a damaged
+/// one nothing: the points to come are shown all the same.
 void read_results(const std::filesystem::path& log, const std::function<void(const std::string&)>& take) {
-  if (!std::filesystem::exists(log)) return;
-  runtime::LogReader reader(log);
-  while (const auto record = reader.next()) {
-    if (record->channel == "SIMULATED") take(record->data);
+  std::vector<std::string> results;
+  try {
+    if (!std::filesystem::exists(log)) return;
+    runtime::LogReader reader(log);
+    while (auto record = reader.next()) {
+      if (record->channel == "GAMUT") results.clear();
+      if (record->channel == "SIMULATED") results.push_back(std::move(record->data));
+    }
+  } catch (const InputError&) {
+    return;
   }
+  for (const std::string& payload : results) take(payload);
 }
 
 }  // namespace
@@ -37,7 +45,10 @@ void read_results(const std::filesystem::path& log, const std::function<void(con
 RunDesk::RunDesk(RunAccess run)
     : run_(std::move(run)),
       reader_(run_),
-      feed_({.open = [this] { return listen(now(), {"STATUS", "SIMULATED"}); },
+      feed_({.open =
+                 [this] {
+                   return listen(now(), {"STATUS", "SIMULATED"});
+                 },
              .identity = [this] { return std::to_string(now().manifest.port); },
              .recorded = [this](const auto& take) { read_results(run_.folder / "run.lcm", take); }}) {}
 
