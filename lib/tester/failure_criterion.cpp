@@ -1,28 +1,14 @@
 #include "tester/failure_criterion.hpp"
 
-#include <array>
-#include <utility>
+#include <fmt/format.h>
 
 namespace nacre::tester {
 namespace {
-
-constexpr std::array<std::pair<CriterionKind, std::string_view>, 3> kNames = {
-    {{CriterionKind::element, "element"},
-     {CriterionKind::neighbourhood, "neighbourhood"},
-     {CriterionKind::crack_band, "crack_band"}}};
 
 /// Of a neighbourhood in unrefined elements, and of a tail.
 constexpr double kLargestRadius = 20.0, kSmallestSoftening = 0.1, kLargestSoftening = 30.0;
 
 }  // namespace
-
-std::string_view to_string(CriterionKind kind) { return kNames[static_cast<std::size_t>(kind)].second; }
-
-Result<CriterionKind> criterion_from_string(std::string_view name) {
-  for (const auto& [kind, entry] : kNames)
-    if (entry == name) return kind;
-  return fail("criterion '{}': expected element, neighbourhood or crack_band", name);
-}
 
 std::string criterion_fault(const FailureCriterion& criterion) {
   const double radius = criterion.radius_m / thesis::kElementSize;

@@ -2,24 +2,12 @@
 // When elements of the fracture tester fail, and which length the criterion has (docs/studies/toughness.md).
 
 #include <string>
-#include <string_view>
 
-#include "base/result.hpp"
 #include "fem/grid.hpp"
-#include "material/parameters.hpp"
+#include "tester/names.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::tester {
-
-/// The energy density at which an element fails is
-enum class CriterionKind {
-  element,        ///< its own, the threshold growing as 1/h so that the fracture energy stays (thesis 2.3.1)
-  neighbourhood,  ///< the mean over a neighbourhood of a pixel or so (fem/neighbourhood.hpp), W at every h
-  crack_band,     ///< its own, W at every h, beyond which a linear tail softens it, the longer the smaller h
-};
-std::string_view to_string(CriterionKind kind);
-/// Error: the names there are.
-Result<CriterionKind> criterion_from_string(std::string_view name);
 
 struct FailureCriterion {
   CriterionKind kind = CriterionKind::element;
