@@ -66,6 +66,15 @@ struct AdoptedModel {
   }
 };
 
+/// What chunks of samples have in common.
+void chunk_fields(auto& field, auto& m) {
+  field("fidelity", m.fidelity);
+  field("chunk", m.chunk);
+  field("chunks", m.chunks, kChunks);
+  field.count("n", m.samples, Range{0, kGamutChunk});
+  field.columns(m.samples, kSampleColumns);
+}
+
 /// GAMUT: one chunk of a gamut.
 struct GamutChunk {
   using Wire = gamut_t;
@@ -78,11 +87,7 @@ struct GamutChunk {
 
   static void fields(auto& field, auto& m) {
     field("round", m.round, kRoundNumber);
-    field("fidelity", m.fidelity);
-    field("chunk", m.chunk);
-    field("chunks", m.chunks, kChunks);
-    field.count("n", m.samples, Range{0, kGamutChunk});
-    field.columns(m.samples, kSampleColumns);
+    chunk_fields(field, m);
   }
   std::string contradiction() const { return index_fault("chunk", chunk, chunks); }
 };
@@ -270,11 +275,7 @@ struct FamilyGamut {
 
   static void fields(auto& field, auto& m) {
     field("number", m.number, kRoundNumber);
-    field("fidelity", m.fidelity);
-    field("chunk", m.chunk);
-    field("chunks", m.chunks, kChunks);
-    field.count("n", m.samples, Range{0, kGamutChunk});
-    field.columns(m.samples, kSampleColumns);
+    chunk_fields(field, m);
   }
   std::string contradiction() const { return index_fault("chunk", chunk, chunks); }
 };
