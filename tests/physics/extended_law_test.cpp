@@ -138,21 +138,10 @@ TEST(ExtendedKernel, SameBitsFromEveryInstructionSet) {
   tester::FractureTest test = tester::fracture_test(with_all_laws());
   test.grid.laws.eigenstrain.clear();  // the static rest has tests of its own
   test.settings.strain_rate_per_s *= 4.0;
-  std::vector<std::vector<double>> stresses;
-  for (const fem::SimdLevel level : {fem::SimdLevel::baseline, fem::SimdLevel::avx2, fem::SimdLevel::avx512}) {
-    if (!fem::has_simd_level(level)) continue;
-    test.settings.simd = level;
-    auto solver = fem::ExplicitSolver<float>::create(test.grid, test.settings).value();
-    int failed = 0;
-    stresses.emplace_back();
-    for (int step = 0; step < 3000; ++step) {
-      const fem::StepReport report = solver.step().value();
-      stresses.back().push_back(report.top_stress_pa);
-      stresses.back().push_back(report.bottom_stress_pa);
-      failed += report.failed;
-    }
-    EXPECT_GT(failed, 10);
-    EXPECT_EQ(stresses.back(), stresses.front()) << fem::to_string(level);
+  const auto results = verification::pulled_by_every_simd_level(test, 3000);
+  for (const auto& pulled : results) {
+    EXPECT_GT(pulled.failed, 10);
+    EXPECT_EQ(pulled.stresses_pa, results.front().stresses_pa) << fem::to_string(pulled.level);
   }
 }
 

@@ -252,20 +252,11 @@ TEST(FailureCriterion, SameBitsFromEveryInstructionSet) {
     if (tail > 0.0) simulation.parameters.extensions["progressive_damage"] = {tail};
     tester::FractureTest test = tester::fracture_test(simulation);
     test.settings.strain_rate_per_s *= 8.0;
-    std::vector<std::vector<double>> stresses;
-    for (const fem::SimdLevel level : {fem::SimdLevel::baseline, fem::SimdLevel::avx2, fem::SimdLevel::avx512}) {
-      if (!fem::has_simd_level(level)) continue;
-      test.settings.simd = level;
-      auto solver = fem::ExplicitSolver<float>::create(test.grid, test.settings).value();
-      int failed = 0;
-      stresses.emplace_back();
-      while (failed < 10 && solver.steps() < 5000) {
-        const fem::StepReport report = solver.step().value();
-        stresses.back().push_back(report.top_stress_pa);
-        failed += report.failed;
-      }
-      EXPECT_GE(failed, 10);
-      EXPECT_EQ(stresses.back(), stresses.front()) << fem::to_string(level) << " " << tester::to_string(kind);
+    const auto results = verification::pulled_by_every_simd_level(test, 5000, 10);
+    for (const auto& pulled : results) {
+      EXPECT_GE(pulled.failed, 10);
+      EXPECT_EQ(pulled.stresses_pa, results.front().stresses_pa)
+          << fem::to_string(pulled.level) << " " << tester::to_string(kind);
     }
   }
 }
