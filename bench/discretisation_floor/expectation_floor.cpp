@@ -18,20 +18,23 @@ constexpr std::size_t kLeastDesigns = 3;  // of a parameter set in a bootstrap
 
 /// Empty for the thesis' criterion and its W.
 std::string criterion_text(const SpecimenPlan& specimens) {
-  const tester::FailureCriterion& criterion = specimens.criterion;
-  const bool is_band = criterion.kind == tester::CriterionKind::crack_band;
+  const material::FailureCriterion& criterion = specimens.criterion;
+  const bool is_band = criterion.kind == material::CriterionKind::crack_band;
   std::string text = specimens.strength_factor == 1.0 ? "" : fmt::format(" W x {}", specimens.strength_factor);
-  if (criterion.kind != tester::CriterionKind::element)
+  if (criterion.kind != material::CriterionKind::element)
     text +=
-        fmt::format(" {} {}", tester::to_string(criterion.kind), is_band ? criterion.softening : criterion.radius_m);
+        fmt::format(" {} {}", material::to_string(criterion.kind), is_band ? criterion.softening : criterion.radius_m);
   return text;
 }
 
-/// The plan with every W multiplied.
-FloorPlan with_strengths(FloorPlan plan, double factor) {
-  for (material::ParameterSet& set : plan.sets)
+/// The plan's parameter sets with the criterion and strengths of the specimens.
+FloorPlan with_strengths(FloorPlan plan, const SpecimenPlan& specimens) {
+  for (material::ParameterSet& set : plan.sets) {
+    set.criterion = specimens.criterion;
+    set.strength_cv = specimens.strength_cv;
     for (double* threshold : {&set.toughness.w_tb_j_per_m3, &set.toughness.w_vw_j_per_m3, &set.toughness.w_if_j_per_m3})
-      *threshold *= factor;
+      *threshold *= specimens.strength_factor;
+  }
   return plan;
 }
 
@@ -182,7 +185,7 @@ std::map<std::size_t, std::vector<const DesignPair*>> grouped_by_set(const std::
 }  // namespace
 
 std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const SpecimenPlan& specimens) {
-  const FloorPlan scaled = with_strengths(plan, specimens.strength_factor);
+  const FloorPlan scaled = with_strengths(plan, specimens);
   std::vector<study::Wanted> wanted;
   for (int specimen = 0; specimen < std::max(specimens.coarse, specimens.fine); ++specimen)
     for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
@@ -192,8 +195,7 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
           const int refinement = specimens.refinement * (fine ? 2 : 1);
           const std::size_t set = (i + pass) % plan.sets.size();
           const std::string key = specimen_key(plan, i, set, refinement, specimens, specimen);
-          wanted.push_back(wanted_fracture_test(key, scaled, i, set, {.refinement = refinement, .specimen = specimen},
-                                                specimens.strength_cv, specimens.criterion));
+          wanted.push_back(wanted_fracture_test(key, scaled, i, set, {.refinement = refinement}, specimen));
         }
   return wanted;
 }

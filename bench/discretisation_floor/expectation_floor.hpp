@@ -15,7 +15,7 @@ struct SpecimenPlan {
   double strength_cv = 0.1;
   int coarse = 0, fine = 0;  ///< specimens 0 .. n - 1 on elements of h / refinement and of h / (2 refinement)
   int refinement = 1;        ///< of the coarse mesh
-  tester::FailureCriterion criterion = {};
+  material::FailureCriterion criterion = {};
   double strength_factor = 1.0;  ///< on every W, which differs between criteria of the same fracture energy
 };
 

@@ -98,14 +98,9 @@ std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t
 }
 
 study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
-                                   const tester::Discretisation& discretisation, double strength_cv,
-                                   const tester::FailureCriterion& criterion) {
-  const tester::Simulation simulation{plan.layouts[layout],
-                                      tester::refined(plan.sets[set], discretisation.refinement),
-                                      {},
-                                      plan.fidelity,
-                                      strength_cv,
-                                      criterion};
+                                   const tester::Discretisation& discretisation, int specimen) {
+  const tester::Simulation simulation{
+      plan.layouts[layout], tester::refined(plan.sets[set], discretisation.refinement), {}, plan.fidelity, specimen};
   return {key, [=]() -> std::vector<double> {
             const auto result = tester::test_toughness(simulation, discretisation);
             if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};

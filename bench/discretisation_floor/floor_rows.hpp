@@ -49,8 +49,7 @@ std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t
 
 /// One fracture test on elements of size h / refinement, with parameters `tester::refined`. A failed test gives zeros.
 study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
-                                   const tester::Discretisation& discretisation, double strength_cv = 0.0,
-                                   const tester::FailureCriterion& criterion = {});
+                                   const tester::Discretisation& discretisation, int specimen = 0);
 
 /// Fracture tests at h and h/2: first every layout with one parameter set, in turn, then with the next one.
 std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan);

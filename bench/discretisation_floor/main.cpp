@@ -28,13 +28,13 @@ struct Options : FloorOptions {
 void run_expectation(const Options& options, const FloorPlan& plan, study::StudyTable& table) {
   SpecimenPlan specimens = options.specimens;
   if (specimens.fine == 0) specimens.fine = specimens.coarse;
-  if (!tester::is_strength_cv(specimens.strength_cv) || specimens.strength_cv == 0.0)
-    throw InputError::format("--strength-cv {}: expected {} to {}", specimens.strength_cv, tester::kSmallestStrengthCv,
-                             tester::kLargestStrengthCv);
-  const auto criterion = tester::criterion_from_string(options.criterion);
+  if (!material::is_strength_cv(specimens.strength_cv) || specimens.strength_cv == 0.0)
+    throw InputError::format("--strength-cv {}: expected {} to {}", specimens.strength_cv,
+                             material::kSmallestStrengthCv, material::kLargestStrengthCv);
+  const auto criterion = material::criterion_from_string(options.criterion);
   if (!criterion) throw InputError::format("--criterion: {}", criterion.error().message);
   specimens.criterion.kind = *criterion;
-  if (const std::string fault = tester::criterion_fault(specimens.criterion); !fault.empty()) throw InputError(fault);
+  if (const std::string fault = material::criterion_fault(specimens.criterion); !fault.empty()) throw InputError(fault);
   const int missing =
       study::fill(table, wanted_specimens(plan, specimens), options.table.seconds, options.table.threads);
   const std::vector<DesignPair> designs = finished_designs(plan, specimens, table);

@@ -40,7 +40,7 @@ void print_levels(const tester::Simulation& simulation) {
     if (!fem::has_simd_level(level)) continue;
     const int steps = level == fem::SimdLevel::baseline ? 5 : 200;
     fmt::print("{:9} {:13} {:9} {:.3g} element-steps/s single, {:.3g} double\n", tester::to_string(simulation.fidelity),
-               tester::to_string(simulation.criterion.kind), fem::to_string(level),
+               material::to_string(simulation.parameters.criterion.kind), fem::to_string(level),
                element_steps_per_s<float>(test, level, steps, 5),
                element_steps_per_s<double>(test, level, steps / 5, 3));
   }
@@ -62,7 +62,7 @@ void print_specimen(tester::Simulation simulation, const std::string& name) {
 void pull_designs(tester::Simulation simulation, const std::vector<std::string>& designs) {
   for (const std::string& design : designs) {
     simulation.design = pattern::design_from_argument(design);
-    print_specimen(simulation, fmt::format("{} {}", tester::to_string(simulation.criterion.kind), design));
+    print_specimen(simulation, fmt::format("{} {}", material::to_string(simulation.parameters.criterion.kind), design));
   }
 }
 
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   for (const std::string& fidelity : fidelities) {
     simulation.fidelity = tester::fidelity_from_string(fidelity).value();
     for (const std::string& criterion : criteria) {
-      simulation.criterion.kind = tester::criterion_from_string(criterion).value();
+      simulation.parameters.criterion.kind = material::criterion_from_string(criterion).value();
       if (levels) print_levels(simulation);
       pull_designs(simulation, designs);
     }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "laboratory/hidden_specimen.hpp"
+#include "laboratory/neighbourhood.hpp"
 
 namespace nacre::laboratory {
 namespace {
@@ -62,6 +63,8 @@ class SpecimenMesh {
     const std::size_t nodes = stride_ * static_cast<std::size_t>(rows_ + 1);
     for (std::vector<float>* field : {&wx_, &wy_, &vx_, &vy_, &mu_, &lambda_, &threshold_}) field->assign(nodes, 0.0f);
     for (std::vector<float>& row : force_) row.assign(stride_, 0.0f);
+    unused_energy_.assign(stride_, 0.0f);
+    if (raster.neighbourhood_m > 0.0) neighbourhood_.emplace(raster, stride_);
     inverse_mass_.assign(stride_, 1.0f);
     inverse_mass_.front() = inverse_mass_[columns_] = 2.0f;  // half a node's share at the edges
     for (int row = 0; row < rows_; ++row) {
@@ -70,8 +73,9 @@ class SpecimenMesh {
                    to = at(row) + static_cast<std::size_t>(column);
         mu_[to] = static_cast<float>(raster.mu_pa[from]);
         lambda_[to] = static_cast<float>(raster.lambda_pa[from]);
-        threshold_[to] =
-            static_cast<float>(std::min<double>(raster.threshold_j_per_m3[from], std::numeric_limits<float>::max()));
+        threshold_[to] = neighbourhood_ ? std::numeric_limits<float>::infinity()
+                                        : static_cast<float>(std::min<double>(raster.threshold_j_per_m3[from],
+                                                                              std::numeric_limits<float>::max()));
       }
     }
   }
@@ -103,6 +107,7 @@ class SpecimenMesh {
       advance_nodes(node_row(row), grip ? 2.0f * scale : scale, grip ? 0.0f : scale, dt, force_[kTotalY].data());
       if (grip) bottom = grip_force();
     }
+    if (neighbourhood_) neighbourhood_->settle(mu_, lambda_, hidden_);
     for (std::size_t k = 0; k < kCarryX; ++k) std::ranges::fill(force_[k], 0.0f);  // no elements above the top grip
     advance_nodes(node_row(rows_), 2.0f * scale, 0.0f, dt, force_[kTotalY].data());
     hold_in_grips(strain);
@@ -155,6 +160,7 @@ class SpecimenMesh {
             .mu = &mu_[lower],
             .lambda = &lambda_[lower],
             .threshold = &threshold_[lower],
+            .energy = neighbourhood_ ? neighbourhood_->energy_row(row) : unused_energy_.data(),
             .x_lower = force_[kXLower].data(),
             .x_upper = force_[kXUpper].data(),
             .x_axial = force_[kXAxial].data(),
@@ -186,7 +192,8 @@ class SpecimenMesh {
   TimeStep step_;
   Grips grips_;
   HiddenSpecimen* hidden_ = nullptr;
-  std::vector<float> wx_, wy_, vx_, vy_, mu_, lambda_, threshold_, inverse_mass_;
+  std::optional<Neighbourhood> neighbourhood_;
+  std::vector<float> wx_, wy_, vx_, vy_, mu_, lambda_, threshold_, inverse_mass_, unused_energy_;
   std::array<std::vector<float>, kForces> force_;
 };
 

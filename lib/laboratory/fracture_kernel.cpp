@@ -52,6 +52,7 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
   float* mu_row = row.mu;
   float* lambda_row = row.lambda;
   const float* threshold = row.threshold;
+  float* mean_energy = row.energy;
   float* x_lower = row.x_lower + 1;
   float* x_upper = row.x_upper + 1;
   float* x_axial = row.x_axial + 1;
@@ -97,6 +98,7 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
     const float energy = energy0 > energy1 ? energy0 : energy1;
     const bool fails = energy > threshold[c];
     const bool stands = (q00.jacobian > 0.0f) & (q10.jacobian > 0.0f) & (q01.jacobian > 0.0f) & (q11.jacobian > 0.0f);
+    mean_energy[c] = 0.25f * ((q00.energy + q10.energy) + (q01.energy + q11.energy));
     mu_row[c] = fails ? 0.0f : mu;
     lambda_row[c] = fails ? 0.0f : lambda;
     failures += fails ? 1 : 0;

@@ -19,6 +19,7 @@ struct ElementRow {
   const float *vx_lower, *vy_lower, *vx_upper, *vy_upper;
   float *mu, *lambda;      ///< Pa; set to zero where an element fails
   const float* threshold;  ///< J/m^3
+  float* energy;           ///< out: mean energy density of the four points, J/m^3
   /// Forces in units of h/8: the lower nodes of element c get -+(a - c) - b, the upper ones -+(a + c) + b. Entry c + 1
   /// is element c; entries 0 and columns + 1 stay zero.
   float *x_lower, *x_upper, *x_axial, *y_lower, *y_upper, *y_axial;

@@ -149,6 +149,7 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
   const float k = step.half_inverse_edge, e = step.grip_strain;
   float *mu_row = row.mu, *lambda_row = row.lambda;
   const float* threshold = row.threshold;
+  float* mean_energy = row.energy;
   float *x_lower = row.x_lower + 1, *x_upper = row.x_upper + 1, *x_axial = row.x_axial + 1;
   float *y_lower = row.y_lower + 1, *y_upper = row.y_upper + 1, *y_axial = row.y_axial + 1;
   const int columns = row.columns;
@@ -196,6 +197,7 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
     // What has softened so far and is squeezed flat is gone: a long tail would keep it until it turns inside out.
     const bool fails = (energy > threshold[c]) | ((integrity < kSpent) & (jacobian < kFlat));
     const bool stands = jacobian > 0.0f;
+    mean_energy[c] = live ? 0.25f * ((q[0].energy + q[1].energy) + (q[2].energy + q[3].energy)) : 0.0f;
     mu_row[c] = fails ? 0.0f : mu;
     lambda_row[c] = fails ? 0.0f : lambda;
     failures += fails ? 1 : 0;

@@ -65,10 +65,11 @@ HiddenSpecimen::HiddenSpecimen(const Raster& raster, double time_step_s)
   inverse_limit_ = padded(raster, law.inverse_limit, 0.0f, stride_);
   eigenstrain_ = padded(raster, law.eigenstrain, 0.0f, stride_);
   overstress_ = padded(raster, law.overstress, 0.0f, stride_);
-  onset_ = padded(raster, raster.threshold_j_per_m3, kNever, stride_);
+  // What its neighbourhood fails begins to soften when that says so.
+  onset_ = padded(raster, raster.neighbourhood_m > 0.0 ? none : raster.threshold_j_per_m3, kNever, stride_);
   threshold_ = onset_;
-  const auto last = static_cast<float>(last_stretch(law) * last_stretch(law));
-  for (float& threshold : threshold_) threshold *= last;
+  last_energy_ = static_cast<float>(last_stretch(law) * last_stretch(law));
+  for (float& threshold : threshold_) threshold *= last_energy_;
   integrity_ = padded(raster, none, 1.0f, stride_);
   const std::vector<float> zero = padded(raster, none, 0.0f, stride_);
   for (auto& point : plastic_) point.fill(zero);
@@ -79,6 +80,11 @@ HiddenSpecimen::HiddenSpecimen(const Raster& raster, double time_step_s)
            .linear_softening = static_cast<float>(law.linear_softening),
            .drawn_out_softening = static_cast<float>(law.drawn_out_softening),
            .tension_only = static_cast<float>(law.tension_only)};
+}
+
+void HiddenSpecimen::begin_to_soften(std::size_t at, float energy_j_per_m3) {
+  onset_[at] = energy_j_per_m3;
+  threshold_[at] = last_energy_ * energy_j_per_m3;
 }
 
 int HiddenSpecimen::advance(int row, ElementRow elements, const ElementStep& step) {

@@ -63,7 +63,7 @@ Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, 
 
 Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& experiment) {
   TrueResponse response;
-  const int specimens = truth.effects.strength_scatter > 0.0 ? truth.replicates : 1;
+  const int specimens = variation_of_strength(truth) > 0.0 ? truth.replicates : 1;
   for (int specimen = 0; specimen < specimens; ++specimen) {
     const Result<PulledSpecimen> one = pulled(truth, experiment, specimen);
     if (!one) return fail("fracture bench: {}", one.error().message);

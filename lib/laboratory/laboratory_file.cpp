@@ -13,6 +13,7 @@
 #include "base/toml_file.hpp"
 #include "laboratory/draw.hpp"
 #include "laboratory/effect_kinds.hpp"
+#include "material/parameter_file.hpp"
 #include "measurement/limits.hpp"
 
 namespace nacre::laboratory {
@@ -106,13 +107,29 @@ AllowedRange range_of(std::string_view parameter) {
 
 /// Keys present in the table replace the drawn constants.
 template <class Vector>
-Vector read_constants(Section section, std::span<const std::string_view> names, Vector constants) {
+Vector read_constants(Section& section, std::span<const std::string_view> names, Vector constants) {
   for (std::size_t i = 0; i < constants.size(); ++i) {
     const AllowedRange range = range_of(names[i]);
     constants[i] = section.number(names[i], range.minimum, range.maximum, constants[i]);
   }
-  section.refuse_others();
   return constants;
+}
+
+/// Criterion and variation of strength stand with eta, as in parameter files.
+void read_failure(Section& section, const toml::table& table, std::string_view source, Truth& truth) {
+  const toml::node* node = section.find("strength_cv");
+  truth.strength_cv = section.number("strength_cv", 0.0, material::kLargestStrengthCv, truth.strength_cv);
+  if (!material::is_strength_cv(truth.strength_cv))
+    throw fault_at(source, *node, "toughness.strength_cv",
+                   fmt::format("0 or {} to {}", material::kSmallestStrengthCv, material::kLargestStrengthCv));
+  const auto kind = material::criterion_from_string(section.text("criterion", to_string(truth.criterion.kind)));
+  if (!kind)
+    throw fault_at(source, *section.find("criterion"), "toughness.criterion", "element, neighbourhood or crack_band");
+  truth.criterion.kind = *kind;
+  truth.criterion.radius_m = section.number("radius_m", 0.0, 1.0, truth.criterion.radius_m);
+  truth.criterion.softening = section.number("softening", 0.0, 1e3, truth.criterion.softening);
+  const std::string fault = material::criterion_fault(truth.criterion);
+  if (!fault.empty()) throw InputError::format("{}: toughness: {}", place(source, table), fault);
 }
 
 std::string effect_names() {
@@ -205,12 +222,14 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
   truth.noise.strain = noise.number("strain", 0.0, 0.5, truth.noise.strain);
   noise.refuse_others();
   truth.effects = read_effects(top.find("effect"), source, truth.seed);
-  truth.modulus = material::modulus_from_vector(
-      read_constants(Section(top.table("modulus"), source, "modulus."), material::modulus_parameter_names(),
-                     material::to_vector(draw_modulus_parameters(truth.seed))));
-  truth.toughness = material::toughness_from_vector(
-      read_constants(Section(top.table("toughness"), source, "toughness."), material::toughness_parameter_names(),
-                     material::to_vector(draw_toughness_parameters(truth.seed))));
+  Section modulus(top.table("modulus"), source, "modulus."), toughness(top.table("toughness"), source, "toughness.");
+  truth.modulus = material::modulus_from_vector(read_constants(
+      modulus, material::modulus_parameter_names(), material::to_vector(draw_modulus_parameters(truth.seed))));
+  modulus.refuse_others();
+  truth.toughness = material::toughness_from_vector(read_constants(
+      toughness, material::toughness_parameter_names(), material::to_vector(draw_toughness_parameters(truth.seed))));
+  read_failure(toughness, top.table("toughness"), source, truth);
+  toughness.refuse_others();
   top.refuse_others();
   return truth;
 }
@@ -238,6 +257,7 @@ std::string to_toml(const Truth& truth) {
   }
   text += constants_toml("modulus", material::modulus_parameter_names(), material::to_vector(truth.modulus));
   text += constants_toml("toughness", material::toughness_parameter_names(), material::to_vector(truth.toughness));
+  text += material::failure_toml(truth.criterion, truth.strength_cv);
   return text;
 }
 

@@ -113,7 +113,7 @@ ElementConstants element_constants(const Constants& constants, double rigid_frac
   const double poisson = mixed(constants.poisson, rigid_fraction);
   const material::Lame lame =
       held_in_thickness(material::lame_from_engineering(young, poisson), poisson, effects, making);
-  return {lame.mu_pa, lame.lambda_pa, mixed_in_log(constants.threshold, rigid_fraction) * factor * kThresholdScale};
+  return {lame.mu_pa, lame.lambda_pa, mixed_in_log(constants.threshold, rigid_fraction) * factor};
 }
 
 /// A rigid pixel that stands nearly alone.
@@ -182,11 +182,12 @@ double remaining_share(const SpecimenSize& size, int row, int column) {
 /// Weibull factors of mean 1, one for each voxel of a tester element's size.
 std::vector<double> voxel_strengths(const Truth& truth, const pattern::Design& design, const Making& making,
                                     const SpecimenSize& size) {
-  if (truth.effects.strength_scatter == 0.0) return {};
+  const double variation = variation_of_strength(truth);
+  if (variation == 0.0) return {};
   RandomStream stream(truth.seed,
                       fmt::format("voxels/{}/{}/{}", design.name(), making.orientation_deg, making.specimen));
   // Justus' approximation of the shape is right within 1 % from 5 to 60 %.
-  const double shape = std::pow(truth.effects.strength_scatter, -1.086);
+  const double shape = std::pow(variation, -1.086);
   std::vector<double> factors(static_cast<std::size_t>(size.columns * size.rows));
   for (double& factor : factors)
     factor = std::pow(-std::log(1.0 - stream.uniform()), 1.0 / shape) / std::tgamma(1.0 + 1.0 / shape);
@@ -253,6 +254,19 @@ void set_laws(HiddenLaw& law, std::size_t e, std::size_t count, const HiddenEffe
   put(law.overstress, effects.soft_overstress > 0.0, 0.0, effects.soft_overstress * soft_part(rigid_fraction));
 }
 
+/// A criterion with a length keeps W on every mesh, and draws its tails out instead: an unrefined element takes up as
+/// much.
+void set_criterion(Raster& raster, const material::FailureCriterion& criterion) {
+  if (criterion.kind == material::CriterionKind::element) return;
+  HiddenLaw& law = raster.law;
+  if (criterion.kind == material::CriterionKind::neighbourhood) raster.neighbourhood_m = criterion.radius_m;
+  if (criterion.kind == material::CriterionKind::crack_band && law.linear_softening == 0.0 &&
+      law.drawn_out_softening == 0.0)
+    law.linear_softening = criterion.softening;
+  for (double* softening : {&law.linear_softening, &law.drawn_out_softening})
+    if (*softening > 0.0) *softening = (1.0 + *softening) * kTesterElementM / kElementM - 1.0;
+}
+
 Raster rasterised(const Constants& constants, const Truth& truth, const pattern::Design& design, const Making& making,
                   const SpecimenSize& size) {
   Raster raster = empty_raster(size);
@@ -263,6 +277,7 @@ Raster rasterised(const Constants& constants, const Truth& truth, const pattern:
     raster.grips.side_stiffness_pa =
         effects.grip_friction / (1.0 - effects.grip_friction) * mixed_in_log(constants.young_pa, 0.5);
   const UnitElements unit = unit_elements(constants, truth, design, making);
+  const double scale = truth.criterion.kind == material::CriterionKind::element ? kThresholdScale : 1.0;
   const std::vector<double> strengths =
       size.notched ? voxel_strengths(truth, design, making, size) : std::vector<double>{};
   for (int row = 0; row < raster.rows; ++row) {
@@ -277,7 +292,7 @@ Raster rasterised(const Constants& constants, const Truth& truth, const pattern:
       const auto e = static_cast<std::size_t>(row * raster.columns + column);
       raster.mu_pa[e] = element.mu_pa * factors.stiffness * remaining;
       raster.lambda_pa[e] = element.lambda_pa * factors.stiffness * remaining;
-      raster.threshold_j_per_m3[e] = element.threshold * factors.strength * remaining;
+      raster.threshold_j_per_m3[e] = scale * element.threshold * factors.strength * remaining;
       if (!strengths.empty()) raster.threshold_j_per_m3[e] *= strengths[row / 2 * size.columns + column / 2];
       if (size.notched)
         set_laws(raster.law, e, raster.mu_pa.size(), effects, rigid_fraction, design.mixture() != nullptr);
@@ -367,6 +382,7 @@ Raster fracture_raster(const Truth& truth, const pattern::Design& design, const 
                             making.strain_rate_per_s / making.pull_rate_per_s;
   raster.law.linear_softening = effects.progressive_damage;
   raster.law.drawn_out_softening = effects.drawn_out_damage;
+  set_criterion(raster, truth.criterion);
   raster.law.tension_only = effects.tension_only_failure;
   return raster;
 }

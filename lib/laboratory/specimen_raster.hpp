@@ -68,8 +68,10 @@ struct Grips {
 /// Constants of one element; a void one has lambda = mu = 0.
 struct Raster {
   int columns = 0, rows = 0;
-  std::vector<double> mu_pa, lambda_pa;    ///< Eq. 2.2 and 2.3; columns * rows, row 0 at the bottom
-  std::vector<double> threshold_j_per_m3;  ///< scaled by h_tester / h_laboratory = 2
+  std::vector<double> mu_pa, lambda_pa;  ///< Eq. 2.2 and 2.3; columns * rows, row 0 at the bottom
+  /// W; by the criterion `element` times h_tester / h_laboratory = 2
+  std::vector<double> threshold_j_per_m3;
+  double neighbourhood_m = 0.0;  ///< R of the criterion `neighbourhood`; 0: another one
   HiddenLaw law = {};
   Grips grips = {};
   bool all_soft = false;  ///< pure soft material: it may stretch without limit

@@ -64,8 +64,15 @@ struct Truth {
   ReplicateNoise noise;
   material::ModulusParameters modulus;
   material::ToughnessParameters toughness;  ///< thresholds as the testers mean them: at element size h
+  material::FailureCriterion criterion = {};
+  double strength_cv = 0.0;  ///< of W between voxels of half a pixel, by a law of its own (Weibull)
   HiddenEffects effects;
   bool operator==(const Truth&) const = default;
 };
+
+/// Variation of W between voxels: `strength_scatter` is the whole of it.
+inline double variation_of_strength(const Truth& truth) {
+  return truth.effects.strength_scatter > 0.0 ? truth.effects.strength_scatter : truth.strength_cv;
+}
 
 }  // namespace nacre::laboratory

@@ -35,17 +35,17 @@ double positive_number(const FilePlace& place, const toml::node& node, const std
   return *value;
 }
 
-/// Overwrites the values that the table names.
+/// Overwrites the values that the table names. `also`: keys of the table that were read before, for errors.
 template <class Vector>
 void read_values(const FilePlace& place, const toml::node& node, std::string_view table_name,
-                 std::span<const std::string_view> names, Vector& vector) {
+                 std::span<const std::string_view> names, Vector& vector, std::string_view also = "") {
   const toml::table* table = node.as_table();
   if (table == nullptr) throw place.error(node, table_name, "expected a table");
   for (const auto& [key, value] : *table) {
     const auto found = std::find(names.begin(), names.end(), key.str());
     const std::string path = fmt::format("{}.{}", table_name, key.str());
     if (found == names.end())
-      throw place.error(value, path, fmt::format("unknown key, expected one of {}", joined(names)));
+      throw place.error(value, path, fmt::format("unknown key, expected one of {}{}", joined(names), also));
     vector[found - names.begin()] = positive_number(place, value, path, key.str().starts_with("nu_"));
   }
 }
@@ -93,6 +93,39 @@ void read_extensions(const FilePlace& place, const toml::node& node, Extensions&
   }
 }
 
+/// The keys of [toughness] that are none of eta.
+struct FailureKeys {
+  FailureCriterion criterion;
+  double strength_cv = 0.0;
+};
+constexpr std::string_view kFailureKeys[] = {"strength_cv", "criterion", "radius_m", "softening"};
+
+/// Takes these keys out of the table: what is left is eta.
+FailureKeys take_failure_keys(const FilePlace& place, toml::table& table, FailureKeys keys) {
+  const auto number = [&](std::string_view key, double& value) {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) return;
+    const std::optional<double> given = node->value<double>();
+    if (!given) throw place.error(*node, fmt::format("toughness.{}", key), "expected a number");
+    value = *given;
+  };
+  number("strength_cv", keys.strength_cv);
+  number("radius_m", keys.criterion.radius_m);
+  number("softening", keys.criterion.softening);
+  if (!is_strength_cv(keys.strength_cv))
+    throw place.error(*table.get("strength_cv"), "toughness.strength_cv",
+                      fmt::format("expected 0 or {} to {}", kSmallestStrengthCv, kLargestStrengthCv));
+  if (const toml::node* node = table.get("criterion")) {
+    const auto kind = criterion_from_string(node->value_or(std::string()));
+    if (!kind) throw place.error(*node, "toughness", kind.error().message);
+    keys.criterion.kind = *kind;
+  }
+  if (const std::string fault = criterion_fault(keys.criterion); !fault.empty())
+    throw place.error(table, "toughness", fault);
+  for (const std::string_view key : kFailureKeys) table.erase(key);
+  return keys;
+}
+
 template <class Vector>
 std::string table_text(std::string_view name, std::span<const std::string_view> names, const Vector& vector) {
   std::string text = fmt::format("[{}]\n", name);
@@ -104,27 +137,40 @@ std::string table_text(std::string_view name, std::span<const std::string_view> 
 
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start) {
   const FilePlace place{path.string()};
-  const toml::table file = read_toml_file(path);
+  toml::table file = read_toml_file(path);
   ModulusVector modulus = to_vector(start.modulus);
   ToughnessVector toughness = to_vector(start.toughness);
   Extensions extensions = start.extensions;
+  FailureKeys failure{start.criterion, start.strength_cv};
+  if (toml::table* table = file["toughness"].as_table()) failure = take_failure_keys(place, *table, failure);
   for (const auto& [key, node] : file) {
     if (key.str() == "modulus")
       read_values(place, node, "modulus", modulus_parameter_names(), modulus);
     else if (key.str() == "toughness")
-      read_values(place, node, "toughness", toughness_parameter_names(), toughness);
+      read_values(place, node, "toughness", toughness_parameter_names(), toughness, ", " + joined(kFailureKeys));
     else if (key.str() == "extension")
       read_extensions(place, node, extensions);
     else
       throw place.error(node, key.str(), "unknown table, expected modulus, toughness or extension.NAME");
   }
-  return {
-      .modulus = modulus_from_vector(modulus), .toughness = toughness_from_vector(toughness), .extensions = extensions};
+  return {.modulus = modulus_from_vector(modulus),
+          .toughness = toughness_from_vector(toughness),
+          .extensions = extensions,
+          .criterion = failure.criterion,
+          .strength_cv = failure.strength_cv};
+}
+
+std::string failure_toml(const FailureCriterion& criterion, double strength_cv) {
+  std::string text = fmt::format("strength_cv = {}\ncriterion = \"{}\"\n", strength_cv, to_string(criterion.kind));
+  if (criterion.kind == CriterionKind::neighbourhood) text += fmt::format("radius_m = {}\n", criterion.radius_m);
+  if (criterion.kind == CriterionKind::crack_band) text += fmt::format("softening = {}\n", criterion.softening);
+  return text;
 }
 
 std::string to_toml(const ParameterSet& parameters) {
   std::string text = table_text("modulus", modulus_parameter_names(), to_vector(parameters.modulus)) + "\n" +
-                     table_text("toughness", toughness_parameter_names(), to_vector(parameters.toughness));
+                     table_text("toughness", toughness_parameter_names(), to_vector(parameters.toughness)) +
+                     failure_toml(parameters.criterion, parameters.strength_cv);
   for (const auto& [name, values] : parameters.extensions) {
     text += fmt::format("\n[extension.{}]\n", name);
     text += values.size() == 1 ? fmt::format("value = {}\n", values[0])

@@ -13,5 +13,7 @@ namespace nacre::material {
 /// throw InputError naming file, line, key and what was expected.
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
 std::string to_toml(const ParameterSet& parameters);
+/// The keys of [toughness] that are none of eta: strength_cv, criterion, and the number that the criterion uses.
+std::string failure_toml(const FailureCriterion& criterion, double strength_cv);
 
 }  // namespace nacre::material

@@ -122,7 +122,10 @@ std::string parameter_fault(const ParameterSet& parameters) {
     return fault;
   for (const auto& [name, values] : parameters.extensions)
     if (std::string fault = extension_fault(name, values); !fault.empty()) return fault;
-  return {};
+  if (!is_strength_cv(parameters.strength_cv))
+    return fmt::format("strength_cv {}, expected 0 or {} to {}", parameters.strength_cv, kSmallestStrengthCv,
+                       kLargestStrengthCv);
+  return criterion_fault(parameters.criterion);
 }
 
 }  // namespace nacre::material

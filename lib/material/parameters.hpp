@@ -12,6 +12,7 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "material/failure_criterion.hpp"
 
 namespace nacre::material {
 
@@ -56,6 +57,10 @@ struct ParameterSet {
   ModulusParameters modulus;
   ToughnessParameters toughness;
   Extensions extensions;
+  FailureCriterion criterion = {};  ///< of the toughness tester
+  /// Of the toughness tester: coefficient of variation of W between regions of half a pixel
+  /// (tester/strength_field.hpp). 0, the thesis' model, or 0.02 to 0.4. Calibrations do not fit it yet.
+  double strength_cv = 0.0;
   bool operator==(const ParameterSet&) const = default;
 };
 
@@ -68,7 +73,8 @@ ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, R
 ParameterSet default_parameters();
 
 /// A sentence when the set lies outside what the testers can compute (E <= 0, nu outside [0, 0.5], W <= 0, unknown
-/// extension, extension parameter outside its range, anything not finite); empty when it is usable.
+/// extension, extension parameter outside its range, strength_cv or a number of the criterion out of range, anything
+/// not finite); empty when it is usable.
 std::string parameter_fault(const ParameterSet& parameters);
 
 }  // namespace nacre::material

@@ -95,6 +95,7 @@ struct Calibration::State {
   std::size_t modulus_wanted = 0;  ///< the first ones of `wanted`; the rest are for toughness
   std::vector<std::optional<std::vector<Prediction>>> told;
   int batch_number = 0;
+  int toughness_evaluations = 0;
   Calibrated result;
 
   std::span<const ParameterRange> modulus_ranges() const { return settings.ranges.modulus(settings.target); }
@@ -209,6 +210,7 @@ struct Calibration::State {
                                     .items = half.items};
         if (is_modulus) evaluation.parameters.modulus = modulus_at(point);
         if (!is_modulus) evaluation.parameters.toughness = toughness_at(point);
+        if (!is_modulus) evaluation.first_specimen = tester::kFirstCalibrationSpecimen + toughness_evaluations++;
         wanted.push_back(std::move(evaluation));
       }
     };

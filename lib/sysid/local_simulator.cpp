@@ -4,9 +4,11 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "base/statistics.hpp"
 #include "sysid/prediction_store.hpp"
 #include "tester/modulus.hpp"
 #include "tester/simulation_key.hpp"
+#include "tester/strength_field.hpp"
 #include "tester/toughness.hpp"
 
 namespace nacre::sysid {
@@ -38,11 +40,38 @@ struct LocalSimulator::State {
   PredictionStore known;
   int simulations = 0;
 
-  Task task_of(const measurement::Replicates& measured, const material::ParameterSet& parameters,
-               tester::TestKind kind) const {
-    Task task{kind, {measured.design, parameters, measured.conditions, fidelity}, {}};
+  Task task_of(const measurement::Replicates& measured, const material::ParameterSet& parameters, tester::TestKind kind,
+               int specimen = 0) const {
+    Task task{kind, {measured.design, parameters, measured.conditions, fidelity, specimen}, {}};
     task.key = tester::simulation_key(task.simulation, kind);
     return task;
+  }
+
+  /// The simulations of one design in an evaluation: where specimens are alike, one stands for all.
+  std::vector<Task> tasks_of(const measurement::Replicates& measured, const WantedEvaluation& evaluation) const {
+    std::vector<Task> tasks;
+    if (evaluation.modulus) tasks.push_back(task_of(measured, evaluation.parameters, tester::TestKind::modulus));
+    if (!evaluation.toughness) return tasks;
+    const int count = tester::specimens_differ(evaluation.parameters) ? evaluation.specimens : 1;
+    for (int i = 0; i < count; ++i)
+      tasks.push_back(
+          task_of(measured, evaluation.parameters, tester::TestKind::toughness, evaluation.first_specimen + i));
+    return tasks;
+  }
+
+  /// From what is known of its tasks. T is the mean over specimens, the curve that of the first.
+  Prediction prediction_of(const std::vector<Task>& tasks) const {
+    Prediction prediction;
+    std::vector<double> toughness_pa;
+    for (const Task& task : tasks) {
+      const Prediction& one = *known.find(task.key);
+      if (one.modulus_pa) prediction.modulus_pa = one.modulus_pa;
+      if (!one.toughness_pa) continue;
+      if (toughness_pa.empty()) prediction.curve = one.curve;
+      toughness_pa.push_back(*one.toughness_pa);
+    }
+    if (!toughness_pa.empty()) prediction.toughness_pa = mean(toughness_pa);
+    return prediction;
   }
 };
 
@@ -57,19 +86,13 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
                                                               const std::vector<WantedEvaluation>& evaluations,
                                                               const std::function<void()>& done) {
   std::vector<Task> tasks;
-  const auto for_each_test = [&](const WantedEvaluation& evaluation, std::size_t item, auto&& body) {
-    for (const tester::TestKind kind : {tester::TestKind::modulus, tester::TestKind::toughness}) {
-      const bool wanted = kind == tester::TestKind::modulus ? evaluation.modulus : evaluation.toughness;
-      if (wanted) body(state_->task_of(measured[item], evaluation.parameters, kind));
-    }
-  };
   std::map<std::string, bool> listed;
   for (const WantedEvaluation& evaluation : evaluations) {
     for (const std::size_t item : evaluation.items) {
-      for_each_test(evaluation, item, [&](Task task) {
+      for (Task& task : state_->tasks_of(measured[item], evaluation)) {
         if (state_->known.find(task.key) == nullptr && listed.try_emplace(task.key, true).second)
           tasks.push_back(std::move(task));
-      });
+      }
     }
   }
   std::mutex one_at_a_time;
@@ -87,16 +110,8 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
   std::vector<std::vector<Prediction>> predictions;
   for (const WantedEvaluation& evaluation : evaluations) {
     auto& of_items = predictions.emplace_back();
-    for (const std::size_t item : evaluation.items) {
-      Prediction& prediction = of_items.emplace_back();
-      for_each_test(evaluation, item, [&](const Task& task) {
-        const Prediction& known = *state_->known.find(task.key);
-        if (known.modulus_pa) prediction.modulus_pa = known.modulus_pa;
-        if (!known.toughness_pa) return;
-        prediction.toughness_pa = known.toughness_pa;
-        prediction.curve = known.curve;
-      });
-    }
+    for (const std::size_t item : evaluation.items)
+      of_items.push_back(state_->prediction_of(state_->tasks_of(measured[item], evaluation)));
   }
   return predictions;
 }

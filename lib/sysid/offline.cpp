@@ -132,7 +132,7 @@ std::vector<std::vector<Prediction>> predict(const std::vector<material::Paramet
       if (measured[i].toughness_count > 0) toughness.items.push_back(i);
     }
     wanted.push_back(std::move(modulus));
-    wanted.push_back(std::move(toughness));
+    wanted.push_back(as_prediction(std::move(toughness)));
   }
   const auto simulated = simulator.simulate(measured, wanted, done);
   std::vector<std::vector<Prediction>> result;

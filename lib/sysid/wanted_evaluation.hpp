@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "material/parameters.hpp"
+#include "tester/specimen_numbers.hpp"
 
 namespace nacre::sysid {
 
@@ -15,6 +16,16 @@ struct WantedEvaluation {
   bool modulus = false;
   bool toughness = false;
   std::vector<std::size_t> items;  ///< indices into the measured designs
+  /// T is the mean over so many specimens from that number on, where specimens differ.
+  int first_specimen = tester::kSearchSpecimen;
+  int specimens = 1;
 };
+
+/// An evaluation whose T is that of a prediction: the mean over specimens that nothing was chosen by.
+inline WantedEvaluation as_prediction(WantedEvaluation evaluation) {
+  evaluation.first_specimen = tester::kFirstPredictionSpecimen;
+  evaluation.specimens = tester::kPredictionSpecimens;
+  return evaluation;
+}
 
 }  // namespace nacre::sysid

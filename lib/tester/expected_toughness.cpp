@@ -27,9 +27,9 @@ Result<ExpectedToughness> expected_toughness(const Simulation& simulation, int c
   parallel_for(
       count,
       [&](int i) {
-        Discretisation own = discretisation;
+        Simulation own = simulation;
         own.specimen = i;
-        tested[static_cast<std::size_t>(i)] = test_toughness(simulation, own);
+        tested[static_cast<std::size_t>(i)] = test_toughness(own, discretisation);
       },
       threads);
   std::vector<ToughnessResult> specimens;

@@ -20,7 +20,7 @@ struct ExpectedToughness {
 ExpectedToughness expected_toughness_of(std::vector<ToughnessResult> specimens);
 
 /// Tests specimens 0 .. count - 1, count >= 1, on up to `threads` threads (0: all allowed cores): same bits for any
-/// number of them. discretisation.specimen is not used. Without strength_cv and `strength_scatter` all are alike.
+/// number of them. simulation.specimen is not used. Without strength_cv and `strength_scatter` all are alike.
 /// Error: the first specimen whose test fails, and why.
 Result<ExpectedToughness> expected_toughness(const Simulation& simulation, int count,
                                              const Discretisation& discretisation = {}, int threads = 0);

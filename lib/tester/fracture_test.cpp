@@ -86,9 +86,9 @@ double strain_within_steps(const FractureTest& test) {
 }
 
 /// The name from which one specimen's voxels are drawn.
-std::string specimen_name(const Simulation& simulation, int specimen) {
+std::string specimen_name(const Simulation& simulation) {
   return fmt::format("{} at {} degrees, {}, specimen {}", simulation.design.name(),
-                     simulation.conditions.orientation_deg, to_string(simulation.fidelity), specimen);
+                     simulation.conditions.orientation_deg, to_string(simulation.fidelity), simulation.specimen);
 }
 
 }  // namespace
@@ -98,11 +98,11 @@ FractureTest fracture_test(const Simulation& simulation, const Discretisation& d
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
                        units.x, units.y, discretisation.refinement);
-  set_criterion(test.grid, discretisation.refinement, simulation.criterion);
-  draw_strengths(test.grid, discretisation.refinement, simulation, discretisation.specimen);
+  set_criterion(test.grid, discretisation.refinement, simulation.parameters.criterion);
+  draw_strengths(test.grid, discretisation.refinement, simulation);
   const material::Extensions& extensions = simulation.parameters.extensions;
   scatter_strength(test.grid, discretisation.refinement, material::extension_value(extensions, "strength_scatter"),
-                   specimen_name(simulation, discretisation.specimen));
+                   specimen_name(simulation));
   cut_notch(test.grid, discretisation.refinement);
   round_notch_root(test.grid, discretisation.refinement, material::extension_value(extensions, "blunt_notch"));
   const bool pure_soft = simulation.design.rigid_fraction() == 0.0;

@@ -1,6 +1,5 @@
 #pragma once
-// The fidelities, the kinds of test and of failure criterion and the reasons why a test ends, with their names in files
-// and messages.
+// The fidelities, the kinds of test and the reasons why a test ends, with their names in files and messages.
 
 #include <string_view>
 
@@ -20,15 +19,6 @@ Result<Fidelity> fidelity_from_string(std::string_view name);
 enum class TestKind { modulus, toughness, tensile };
 std::string_view to_string(TestKind kind);
 Result<TestKind> test_kind_from_string(std::string_view name);
-
-/// The energy density at which an element of the fracture tester fails is
-enum class CriterionKind {
-  element,        ///< its own, the threshold growing as 1/h so that the fracture energy stays (thesis 2.3.1)
-  neighbourhood,  ///< the mean over a neighbourhood of a pixel or so (fem/neighbourhood.hpp), W at every h
-  crack_band,     ///< its own, W at every h, beyond which a linear tail softens it, the longer the smaller h
-};
-std::string_view to_string(CriterionKind kind);
-Result<CriterionKind> criterion_from_string(std::string_view name);
 
 /// Why a fracture test ended.
 enum class EndReason { stress_drop, strain_limit, no_failure, step_limit };

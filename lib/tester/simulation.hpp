@@ -5,7 +5,6 @@
 
 #include "material/parameters.hpp"
 #include "pattern/design.hpp"
-#include "tester/failure_criterion.hpp"
 #include "tester/names.hpp"
 
 namespace nacre::tester {
@@ -25,11 +24,8 @@ struct Simulation {
   material::ParameterSet parameters;
   TestConditions conditions;
   Fidelity fidelity = Fidelity::full;
-  /// Coefficient of variation of W between regions of half a pixel (strength_field.hpp): 0, the thesis' model, or 0.02
-  /// to 0.4. A parameter of the fracture tester beside eta, which calibrations do not fit yet.
-  double strength_cv = 0.0;
-  /// Of the fracture tester.
-  FailureCriterion criterion = {};
+  /// Which of the specimens of its design, whose strength varies (strength_cv, strength_scatter). Of the fracture test.
+  int specimen = 0;
 };
 
 /// Numerical settings, for verification and for the sanity checks of a diagnosis. The defaults are the testers.
@@ -39,7 +35,6 @@ struct Discretisation {
   double rate_scale = 1.0;        ///< factor on the simulated strain rate (20 /s)
   int recording_scale = 1;        ///< factor on the number of recorded samples
   bool explicit_modulus = false;  ///< modulus by explicit integration with gamma instead of the static solver
-  int specimen = 0;               ///< which of the specimens whose strength varies (strength_cv, strength_scatter)
   int frame_count = 0;            ///< fracture frames to keep, placed by film_strains() (film_strains.hpp); 0 none
 };
 

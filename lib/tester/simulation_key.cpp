@@ -4,6 +4,7 @@
 
 #include "base/hash.hpp"
 #include "material/extensions.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::tester {
 namespace {
@@ -53,13 +54,16 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
 
 /// What a fracture test depends on beside the thesis' model; empty where it is that.
 std::string failure_text(const Simulation& simulation) {
+  const material::ParameterSet& parameters = simulation.parameters;
+  const material::FailureCriterion& criterion = parameters.criterion;
   std::string text;
-  if (simulation.strength_cv != 0.0) text += fmt::format("strength_cv {}\n", exact(simulation.strength_cv));
-  const FailureCriterion& criterion = simulation.criterion;
-  if (criterion.kind == CriterionKind::neighbourhood)
+  if (parameters.strength_cv != 0.0) text += fmt::format("strength_cv {}\n", exact(parameters.strength_cv));
+  if (criterion.kind == material::CriterionKind::neighbourhood)
     text += fmt::format("criterion neighbourhood {}\n", exact(criterion.radius_m));
-  if (criterion.kind == CriterionKind::crack_band)
+  if (criterion.kind == material::CriterionKind::crack_band)
     text += fmt::format("criterion crack_band {}\n", exact(criterion.softening));
+  if (simulation.specimen != 0 && specimens_differ(parameters))
+    text += fmt::format("specimen {}\n", simulation.specimen);
   return text;
 }
 

@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::tester {
 
-bool is_strength_cv(double value) {
-  return value == 0.0 || (value >= kSmallestStrengthCv && value <= kLargestStrengthCv);
+bool specimens_differ(const material::ParameterSet& parameters) {
+  return parameters.strength_cv > 0.0 || material::extension_value(parameters.extensions, "strength_scatter") > 0.0;
 }
 
 void multiply_strengths(fem::Grid& grid, int refinement, const std::function<double()>& draw_factor) {
@@ -25,11 +26,12 @@ void multiply_strengths(fem::Grid& grid, int refinement, const std::function<dou
     }
 }
 
-void draw_strengths(fem::Grid& grid, int refinement, const Simulation& simulation, int specimen) {
-  if (simulation.strength_cv == 0.0) return;
-  const double variance = std::log1p(simulation.strength_cv * simulation.strength_cv), s = std::sqrt(variance);
+void draw_strengths(fem::Grid& grid, int refinement, const Simulation& simulation) {
+  const double cv = simulation.parameters.strength_cv;
+  if (cv == 0.0) return;
+  const double variance = std::log1p(cv * cv), s = std::sqrt(variance);
   RandomStream random(0, fmt::format("strength of {}/{}/{}", simulation.design.name(),
-                                     simulation.conditions.orientation_deg, specimen));
+                                     simulation.conditions.orientation_deg, simulation.specimen));
   multiply_strengths(grid, refinement, [&] { return std::exp(s * random.normal() - 0.5 * variance); });
 }
 

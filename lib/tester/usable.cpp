@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "tester/strength_field.hpp"
-
 namespace nacre::tester {
 namespace {
 
@@ -19,18 +17,16 @@ std::string simulation_fault(const Simulation& simulation, TestKind kind) {
     return fmt::format("strain rate {} /s, expected a number above 0", conditions.strain_rate_per_s);
   if (!positive(conditions.thickness_mm))
     return fmt::format("thickness {} mm, expected a number above 0", conditions.thickness_mm);
-  if (kind == TestKind::toughness && !is_strength_cv(simulation.strength_cv))
-    return fmt::format("strength_cv {}, expected 0 or {} to {}", simulation.strength_cv, kSmallestStrengthCv,
-                       kLargestStrengthCv);
-  if (const std::string fault = criterion_fault(simulation.criterion); kind == TestKind::toughness && !fault.empty())
-    return fault;
   // Only the parameters of the test that is run must be usable: a file may hold one table alone.
   material::ParameterSet needed = material::default_parameters();
   needed.extensions = simulation.parameters.extensions;
-  if (kind == TestKind::toughness)
+  if (kind == TestKind::toughness) {
     needed.toughness = simulation.parameters.toughness;
-  else
+    needed.criterion = simulation.parameters.criterion;
+    needed.strength_cv = simulation.parameters.strength_cv;
+  } else {
     needed.modulus = simulation.parameters.modulus;
+  }
   return material::parameter_fault(needed);
 }
 

@@ -16,6 +16,7 @@
 namespace nacre::wire {
 
 inline constexpr std::size_t kMaximumDesigns = 64;   ///< of a simulate request
+inline constexpr int kMaximumSpecimens = 1000;       ///< of a design of a simulate request
 inline constexpr std::size_t kMaximumBreaks = 4000;  ///< of a FRACTURE
 
 /// An id that begins with its requester: a node's name and '/'.
@@ -35,6 +36,8 @@ struct SimulateRequest {
   tester::Fidelity fidelity = tester::Fidelity::full;
   tester::TestConditions conditions;
   material::ParameterSet parameters;
+  int first_specimen = 0;  ///< T is the mean over `specimens` from this one on; curve, crack and film are of this one
+  int specimens = 1;
   int curve_points = 0;
   bool crack = false;  ///< a FRACTURE per design is wanted; with toughness only
   bool film = false;   ///< and the film of it, in the run's folder; with toughness only
@@ -47,6 +50,8 @@ struct SimulateRequest {
     field("fidelity", m.fidelity);
     field("conditions", m.conditions);
     field("parameters", m.parameters);
+    field("first_specimen", m.first_specimen, kCounted);
+    field("specimens", m.specimens, Range{1, kMaximumSpecimens});
     field("curve_points", m.curve_points, Range{0, kMaximumCurvePoints});
     field.count("n_designs", m.designs, Range{1, kMaximumDesigns});
     field("designs", m.designs);
@@ -59,10 +64,12 @@ struct SimulatedDesign {
   pattern::Design design;
   std::string failure;  ///< empty, or why there is no number
   double modulus_pa = 0.0;
-  double toughness_pa = 0.0;
-  double peak_stress_pa = 0.0;
-  double failure_strain = 0.0;
-  tester::Curve curve;
+  double toughness_pa = 0.0;     ///< mean over specimens
+  double toughness_sd_pa = 0.0;  ///< scatter between specimens, over n - 1; 0 with one
+  int specimens = 0;             ///< 0 where no fracture test was requested
+  double peak_stress_pa = 0.0;   ///< mean over specimens
+  double failure_strain = 0.0;   ///< mean over specimens
+  tester::Curve curve;           ///< of the first specimen
   bool operator==(const SimulatedDesign&) const = default;
 
   static void fields(auto& field, auto& m) {
@@ -70,6 +77,8 @@ struct SimulatedDesign {
     field.failure("ok", "reason", m.failure);
     field("modulus_pa", m.modulus_pa, kPressurePa);
     field("toughness_pa", m.toughness_pa, kPressurePa);
+    field("toughness_sd_pa", m.toughness_sd_pa, kPressurePa);
+    field("specimens", m.specimens, Range{0, kMaximumSpecimens});
     field("peak_stress_pa", m.peak_stress_pa, kPressurePa);
     field("failure_strain", m.failure_strain, kStrain);
     field.count("n_points", m.curve.strain, Range{0, kMaximumCurvePoints});

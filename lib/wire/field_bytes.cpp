@@ -108,6 +108,12 @@ std::string FieldReader::get_value(tester::TestKind& value) {
   return take(test_kind_of_code(code), value);
 }
 
+std::string FieldReader::get_value(material::CriterionKind& value) {
+  std::int64_t code = 0;
+  if (std::string fault = get_integer(code, 1); !fault.empty()) return fault;
+  return take(criterion_of_code(code), value);
+}
+
 std::string FieldReader::get_value(pattern::Pattern& value) {
   std::int64_t bits = 0;
   if (std::string fault = get_integer(bits, 8); !fault.empty()) return fault;
@@ -136,6 +142,11 @@ Result<tester::Fidelity> fidelity_of_code(std::int64_t code) {
 Result<tester::TestKind> test_kind_of_code(std::int64_t code) {
   if (code < 0 || code > static_cast<int>(tester::TestKind::tensile)) return fail("there is no {}", code);
   return static_cast<tester::TestKind>(code);
+}
+
+Result<material::CriterionKind> criterion_of_code(std::int64_t code) {
+  if (code < 0 || code > static_cast<int>(material::CriterionKind::crack_band)) return fail("there is no {}", code);
+  return static_cast<material::CriterionKind>(code);
 }
 
 }  // namespace nacre::wire

@@ -2,7 +2,8 @@
 // Fields <-> bytes of a message, by the struct's table (base/fields.hpp). LCM writes values one after the other, the
 // highest byte first; texts have their length and a closing zero. Which bytes a value takes follows from its type:
 //
-//   bool 1, int 4, std::int64_t 8, double 8; Fidelity and TestKind 1; a Pattern 8; texts, Designs and Loadings a text
+//   bool 1, int 4, std::int64_t 8, double 8; Fidelity, TestKind and CriterionKind 1; a Pattern 8; texts, Designs and
+//   Loadings a text
 //
 // unit.wire holds every table to the .lcm file of its message.
 
@@ -17,6 +18,7 @@
 
 #include "base/fields.hpp"
 #include "base/result.hpp"
+#include "material/failure_criterion.hpp"
 #include "pattern/design.hpp"
 #include "tester/loading.hpp"
 #include "tester/names.hpp"
@@ -130,6 +132,7 @@ class FieldWriter {
   void put_value(std::int64_t value) { put_integer(value, 8); }
   void put_value(tester::Fidelity value) { put_integer(static_cast<int>(value), 1); }
   void put_value(tester::TestKind value) { put_integer(static_cast<int>(value), 1); }
+  void put_value(material::CriterionKind value) { put_integer(static_cast<int>(value), 1); }
   void put_value(const pattern::Pattern& value) { put_integer(static_cast<std::int64_t>(value.bits()), 8); }
   void put_value(double value);
   void put_value(const std::string& value);
@@ -273,6 +276,7 @@ class FieldReader {
   std::string get_value(std::string& value);
   std::string get_value(tester::Fidelity& value);
   std::string get_value(tester::TestKind& value);
+  std::string get_value(material::CriterionKind& value);
   std::string get_value(pattern::Pattern& value);
   std::string get_value(pattern::Design& value);
   std::string get_value(tester::Loading& value);
@@ -297,5 +301,6 @@ class FieldReader {
 /// Enumerations are numbers on the wire.
 Result<tester::Fidelity> fidelity_of_code(std::int64_t code);
 Result<tester::TestKind> test_kind_of_code(std::int64_t code);
+Result<material::CriterionKind> criterion_of_code(std::int64_t code);
 
 }  // namespace nacre::wire

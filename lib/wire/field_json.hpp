@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fields.hpp"
+#include "material/failure_criterion.hpp"
 #include "pattern/design.hpp"
 #include "tester/loading.hpp"
 #include "tester/names.hpp"
@@ -23,6 +24,7 @@ inline std::string text_of(const pattern::Pattern& pattern) { return pattern.key
 inline std::string text_of(const tester::Loading& loading) { return tester::to_string(loading); }
 inline std::string text_of(tester::Fidelity fidelity) { return std::string(tester::to_string(fidelity)); }
 inline std::string text_of(tester::TestKind kind) { return std::string(tester::to_string(kind)); }
+inline std::string text_of(material::CriterionKind kind) { return std::string(material::to_string(kind)); }
 
 template <class T>
 concept HasText = requires(const T& value) {
@@ -45,7 +47,9 @@ concept IsSequence =
 
 /// A struct of which a value may say that there is nothing in it.
 template <class T>
-concept kMayHoldNothing = requires(const T& value) { FieldsOf<T>::holds_nothing(value); };
+concept kMayHoldNothing = requires(const T& value) {
+  FieldsOf<T>::holds_nothing(value);
+};
 
 template <class T>
 Json json_of(const T& value);

@@ -17,11 +17,10 @@ std::string name_twice(const std::vector<Extension>& extensions) {
   return {};
 }
 
-material::ParameterSet parameter_set(const material::ModulusVector& modulus, const material::ToughnessVector& toughness,
-                                     const std::vector<Extension>& extensions) {
-  material::ParameterSet set{material::modulus_from_vector(modulus), material::toughness_from_vector(toughness), {}};
-  for (const Extension& each : extensions) set.extensions.emplace(each.name, each.values);
-  return set;
+material::Extensions by_name(const std::vector<Extension>& extensions) {
+  material::Extensions named;
+  for (const Extension& each : extensions) named.emplace(each.name, each.values);
+  return named;
 }
 
 }  // namespace nacre::wire

@@ -44,8 +44,7 @@ struct Extension {
 std::vector<Extension> listed(const material::Extensions& extensions);
 /// The name of an extension that stands there twice; empty: none does.
 std::string name_twice(const std::vector<Extension>& extensions);
-material::ParameterSet parameter_set(const material::ModulusVector& modulus, const material::ToughnessVector& toughness,
-                                     const std::vector<Extension>& extensions);
+material::Extensions by_name(const std::vector<Extension>& extensions);
 
 /// Columns of the samples of a gamut.
 inline constexpr auto kSampleColumns = [](auto& column, auto& sample) {
@@ -71,12 +70,18 @@ struct FieldsOf<material::ParameterSet> {
     std::vector<wire::Extension> extensions = wire::listed(m.extensions);
     field("modulus", modulus);
     field("toughness", toughness);
+    field("strength_cv", m.strength_cv);
+    field("criterion", m.criterion.kind);
+    field("radius_m", m.criterion.radius_m);
+    field("softening", m.criterion.softening);
     field.count("n_extensions", extensions);
     field("extensions", extensions);
     if constexpr (!std::is_const_v<std::remove_reference_t<decltype(m)>>) {
       if (const std::string twice = wire::name_twice(extensions); !twice.empty())
         return field.refuse(fmt::format("extension {} twice", twice));
-      m = wire::parameter_set(modulus, toughness, extensions);
+      m.modulus = material::modulus_from_vector(modulus);
+      m.toughness = material::toughness_from_vector(toughness);
+      m.extensions = wire::by_name(extensions);
     }
   }
   static std::string contradiction(const material::ParameterSet& m) { return material::parameter_fault(m); }

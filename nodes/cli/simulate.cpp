@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct Options {
   int frame_count = film::kFrames;
   int film_width = 960;
   SpecimenChoice choice;
-  std::string criterion = "element";
+  std::string criterion;
+  std::optional<double> strength_cv;
   bool json = false;
 
   bool wants_films() const { return !frames.empty() || !film.empty(); }
@@ -78,16 +80,14 @@ tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options
   return {.design = simulated.design,
           .parameters = tester::refined(parameters, options.choice.refine),
           .conditions = {},
-          .fidelity = fidelity_from_option(options.fidelity),
-          .strength_cv = options.choice.strength_cv,
-          .criterion = options.choice.criterion};
+          .fidelity = fidelity_from_option(options.fidelity)};
 }
 
-void pull_specimen(SimulatedDesign& simulated, const tester::Simulation& simulation, std::size_t specimen,
+void pull_specimen(SimulatedDesign& simulated, tester::Simulation simulation, std::size_t specimen,
                    const Options& options) {
   const double begun_s = processor_time_s();
-  simulated.pulled[specimen] =
-      tester::test_toughness(simulation, {.refinement = options.choice.refine, .specimen = static_cast<int>(specimen)});
+  simulation.specimen = static_cast<int>(specimen);
+  simulated.pulled[specimen] = tester::test_toughness(simulation, {.refinement = options.choice.refine});
   simulated.kernel_s[specimen] = processor_time_s() - begun_s;
 }
 
@@ -161,16 +161,22 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
     }
 }
 
+/// The parameter file's, or what the options say instead.
+material::ParameterSet model_of(const Options& options) {
+  material::ParameterSet model = parameters_from_option(options.params, material::default_parameters());
+  if (options.strength_cv) model.strength_cv = *options.strength_cv;
+  if (!material::is_strength_cv(model.strength_cv))
+    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", model.strength_cv,
+                             material::kSmallestStrengthCv, material::kLargestStrengthCv);
+  if (!options.criterion.empty()) model.criterion.kind = *material::criterion_from_string(options.criterion);
+  return model;
+}
+
 /// Before anything is computed: the specimens that were asked for exist.
 void check_specimen_options(const Options& options, const material::ParameterSet& parameters) {
-  if (!tester::is_strength_cv(options.choice.strength_cv))
-    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", options.choice.strength_cv,
-                             tester::kSmallestStrengthCv, tester::kLargestStrengthCv);
   if (options.choice.refine > 1 && options.wants_films())
     throw InputError("--frames and --film show unrefined elements: leave out --refine");
-  const bool differ =
-      options.choice.strength_cv > 0.0 || material::extension_value(parameters.extensions, "strength_scatter") > 0.0;
-  if (options.choice.count > 1 && !differ)
+  if (options.choice.count > 1 && !tester::specimens_differ(parameters))
     warn(fmt::format("--specimens {}: without --strength-cv they are all alike", options.choice.count));
   if (options.choice.count > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
 }
@@ -190,9 +196,10 @@ void check_output_options(const Options& options) {
 
 int simulate(const Options& given) {
   Options options = given;
-  options.choice.criterion.kind = *tester::criterion_from_string(options.criterion);
   std::vector<SimulatedDesign> designs = read_designs(options.patterns);
-  const material::ParameterSet parameters = parameters_from_option(options.params, material::default_parameters());
+  const material::ParameterSet parameters = model_of(options);
+  options.choice.criterion = parameters.criterion;
+  options.choice.strength_cv = parameters.strength_cv;
   check_specimen_options(options, parameters);
   check_output_options(options);
   run_tests(designs, options, parameters);
@@ -222,13 +229,12 @@ void add_simulate(CLI::App& app, Action& action) {
   command.add_option("--specimens", options->choice.count, "T is the mean over so many specimens of each pattern")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command.add_option("--strength-cv", options->strength_cv,
+                     "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4; default: the "
+                     "model's");
   command
-      .add_option("--strength-cv", options->choice.strength_cv,
-                  "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4")
-      ->capture_default_str();
-  command.add_option("--criterion", options->criterion, "When elements fail in the toughness test")
-      ->check(CLI::IsMember({"element", "neighbourhood", "crack_band"}))
-      ->capture_default_str();
+      .add_option("--criterion", options->criterion, "When elements fail in the toughness test; default: the model's")
+      ->check(CLI::IsMember({"element", "neighbourhood", "crack_band"}));
   command.add_option("--refine", options->choice.refine, "Elements of 1/K, with the same specimens")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();

@@ -130,7 +130,7 @@ nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SpecimenC
   if (simulated.modulus) entry["modulus_pa"] = (*simulated.modulus)->modulus_pa;
   if (simulated.toughness) add_toughness(entry, simulated);
   if (simulated.toughness && choice.tells_mean()) add_specimens(entry, *simulated.toughness, choice.strength_cv);
-  if (simulated.toughness && choice.tells_criterion()) entry["criterion"] = tester::to_string(choice.criterion.kind);
+  if (simulated.toughness && choice.tells_criterion()) entry["criterion"] = material::to_string(choice.criterion.kind);
   entry["crack"] = simulated.crack ? to_json(*simulated.crack, simulated.mechanisms) : nlohmann::ordered_json(nullptr);
   return entry;
 }

@@ -16,14 +16,14 @@ namespace nacre::cli {
 /// Which specimens of every design are broken.
 struct SpecimenChoice {
   int count = 1;
-  double strength_cv = 0.0;
   int refine = 1;  ///< elements of 1/refine
-  tester::FailureCriterion criterion;
+  material::FailureCriterion criterion;
+  double strength_cv = 0.0;
 
   /// Whether T is told as a mean over specimens.
   bool tells_mean() const { return count > 1 || strength_cv > 0.0; }
   /// Whether the JSON names the criterion: always, but where nothing departs from the thesis.
-  bool tells_criterion() const { return tells_mean() || criterion.kind != tester::CriterionKind::element; }
+  bool tells_criterion() const { return tells_mean() || criterion.kind != material::CriterionKind::element; }
 };
 
 /// A design and the results of its tests.

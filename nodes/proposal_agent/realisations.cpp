@@ -8,6 +8,8 @@
 #include "base/random.hpp"
 #include "optimize/pareto.hpp"
 #include "proposal_agent/branch.hpp"
+#include "tester/specimen_numbers.hpp"
+#include "tester/strength_field.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::proposal_agent {
@@ -52,21 +54,32 @@ std::vector<wire::SimulateRequest> Realisations::next(const wire::SimulateReques
   std::vector<pattern::Pattern> wanted = count_ > 0 ? candidates() : std::vector<pattern::Pattern>();
   std::erase_if(wanted, [&](const pattern::Pattern& pattern) { return realised_.contains(pattern); });
   ++step_;
+  are_specimens_ = tester::specimens_differ(model.parameters);
+  simulated_ += count_ * static_cast<int>(wanted.size());
+  realised_.insert(wanted.begin(), wanted.end());
+  return wanted.empty() ? std::vector<wire::SimulateRequest>() : requests_of(wanted, model);
+}
+
+std::vector<wire::SimulateRequest> Realisations::requests_of(const std::vector<pattern::Pattern>& wanted,
+                                                             const wire::SimulateRequest& model) {
   std::vector<wire::SimulateRequest> requests;
-  for (int number = 0; number < count_ && !wanted.empty(); ++number) {
-    wire::SimulateRequest perturbed = model;
-    perturbed.modulus = false;
-    // The same perturbed parameters for every design and round: designs are compared like with like.
-    RandomStream random(seed_, fmt::format("redraw {}", number));
-    perturbed.parameters.toughness = material::perturbed(model.parameters.toughness, kPerturbation, random);
+  for (int number = 0; number < (are_specimens_ ? 1 : count_); ++number) {
+    wire::SimulateRequest again = model;
+    again.modulus = false;
+    if (are_specimens_) {
+      again.first_specimen = tester::kFirstPredictionSpecimen;
+      again.specimens = count_;
+    } else {
+      // The same perturbed parameters for every design and round: designs are compared like with like.
+      RandomStream random(seed_, fmt::format("redraw {}", number));
+      again.parameters.toughness = material::perturbed(model.parameters.toughness, kPerturbation, random);
+    }
     for (wire::SimulateRequest& request :
-         requests_for_patterns(wanted, perturbed, fmt::format("{}/redraw{}/d{}", prefix_, step_, number))) {
+         requests_for_patterns(wanted, again, fmt::format("{}/redraw{}/d{}", prefix_, step_, number))) {
       open_.emplace(request.request_id, number);
       requests.push_back(std::move(request));
     }
   }
-  simulated_ += count_ * static_cast<int>(wanted.size());
-  realised_.insert(wanted.begin(), wanted.end());
   return requests;
 }
 
@@ -84,6 +97,10 @@ void Realisations::settle() {
   for (explore::Evaluated& sample : gamut_) {
     const auto further = log_toughness_.find(sample.pattern.key());
     if (further == log_toughness_.end()) continue;
+    if (are_specimens_) {
+      sample.performance.toughness_pa = std::exp(further->second.at(0));
+      continue;
+    }
     double sum = std::log(sample.performance.toughness_pa);  // in order of number, whatever came first
     for (const auto& [number, log_toughness] : further->second) sum += log_toughness;
     sample.performance.toughness_pa = std::exp(sum / (1.0 + static_cast<double>(further->second.size())));

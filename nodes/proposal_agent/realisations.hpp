@@ -1,8 +1,8 @@
 #pragma once
-// Toughness without the winner's curse. The best of N samples are those whose one simulation came out high: their
-// cracks take paths that other parameters, as probable as these, do not allow. Whatever may be selected is therefore
-// simulated again with parameters perturbed within their uncertainty (realisations), and its T is the geometric mean
-// (docs/studies/realisations.md; re-evaluation of elites in noisy optimisation).
+// Toughness without the winner's curse. The best of N samples are those whose one simulation came out high. Whatever
+// may be selected is therefore simulated again (re-evaluation of elites in noisy optimisation): where specimens differ,
+// its T is the mean over further specimens, which did not choose it; else it is the geometric mean over simulations
+// with parameters perturbed within their uncertainty (realisations, docs/studies/realisations.md).
 
 #include <cstdint>
 #include <map>
@@ -36,6 +36,8 @@ class Realisations {
 
  private:
   std::vector<pattern::Pattern> candidates() const;
+  std::vector<wire::SimulateRequest> requests_of(const std::vector<pattern::Pattern>& wanted,
+                                                 const wire::SimulateRequest& model);
   void settle();
 
   std::vector<explore::Evaluated> gamut_;
@@ -46,6 +48,7 @@ class Realisations {
   int step_ = 0;
   std::map<std::string, int> open_;                             // request -> number of the realisation
   std::map<std::string, std::map<int, double>> log_toughness_;  // of this step, by design and realisation
+  bool are_specimens_ = false;                                  // they alone count
   int simulated_ = 0;
 };
 

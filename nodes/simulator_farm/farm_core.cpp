@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/statistics.hpp"
 #include "simulator_farm/test_request.hpp"
 #include "tester/simulation_key.hpp"
 
@@ -14,6 +15,19 @@ namespace {
 
 void warn(runtime::Outputs& outputs, std::string text) {
   outputs.log.push_back({runtime::LogLevel::warning, std::move(text)});
+}
+
+/// T, peak stress and failure strain are means over specimens.
+void average(const std::vector<wire::SimulatedDesign>& specimens, wire::SimulatedDesign& whole) {
+  const auto values = [&](double wire::SimulatedDesign::*field) {
+    std::vector<double> all;
+    for (const wire::SimulatedDesign& specimen : specimens) all.push_back(specimen.*field);
+    return all;
+  };
+  whole.toughness_pa = mean(values(&wire::SimulatedDesign::toughness_pa));
+  if (specimens.size() > 1) whole.toughness_sd_pa = standard_deviation(values(&wire::SimulatedDesign::toughness_pa));
+  whole.peak_stress_pa = mean(values(&wire::SimulatedDesign::peak_stress_pa));
+  whole.failure_strain = mean(values(&wire::SimulatedDesign::failure_strain));
 }
 
 }  // namespace
@@ -52,17 +66,17 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   const wire::SimulateRequest& request = entry.request;
   if (open_requests_ == 0) asked_ = done_ = 0;
   for (const pattern::Design& design : request.designs) {
-    for (tester::TestKind test : tests_of(request)) {
-      const Extras wanted = wanted_extras(request, test);
-      const std::string key = tester::simulation_key(simulation_of(request, design), test);
+    for (const WantedTest& wanted : tests_of(request)) {
+      const std::string key = tester::simulation_key(simulation_of(request, design, wanted.specimen), wanted.test);
       OpenTest& open_test = tests_[key];
-      if (open_test.suffices(wanted)) continue;
-      open_test.test = test;
+      if (open_test.suffices(wanted.extras)) continue;
+      open_test.test = wanted.test;
+      open_test.specimen = wanted.specimen;
       // A design that stands twice in the request waits twice and is settled twice.
       open_test.waiting.push_back(request.request_id);
       ++entry.missing;
       ++asked_;
-      if (!open_test.running) launch(key, request, design, wanted, outputs);
+      if (!open_test.running) launch(key, request, design, wanted.extras, outputs);
     }
   }
   if (entry.missing == 0) {
@@ -78,10 +92,10 @@ void FarmCore::launch(const std::string& key, const wire::SimulateRequest& reque
   open_test.running = true;
   open_test.computing = open_test.has | wanted;
   // More is wanted of a test that is done: the cache has the numbers, nothing is simulated twice for them.
-  outputs.computes.push_back(
-      {.id = open_test.is_done ? fmt::format("{}/{}", key, to_string(open_test.computing)) : key,
-       .kind = "simulate",
-       .spec = wire::write(test_request_of(request, design, open_test.test, open_test.computing))});
+  outputs.computes.push_back({.id = open_test.is_done ? fmt::format("{}/{}", key, to_string(open_test.computing)) : key,
+                              .kind = "simulate",
+                              .spec = wire::write(test_request_of(
+                                  request, design, {open_test.test, open_test.specimen, open_test.computing}))});
 }
 
 void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) {
@@ -108,7 +122,7 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
   const std::vector<std::string> waiting = std::exchange(open_test.waiting, {});
   for (const std::string& id : waiting) {
     OpenRequest& request = requests_.at(id);
-    const Extras wanted = wanted_extras(request.request, open_test.test);
+    const Extras wanted = wanted_extras(request.request, open_test.test, open_test.specimen);
     if (!open_test.suffices(wanted)) {
       open_test.waiting.push_back(id);
       if (!open_test.running)
@@ -132,34 +146,37 @@ const std::string& FarmCore::OpenTest::failure(const Extras& wanted) const {
 }
 
 const FarmCore::OpenTest& FarmCore::open_test(const wire::SimulateRequest& request, const pattern::Design& design,
-                                              tester::TestKind test) const {
-  return tests_.at(tester::simulation_key(simulation_of(request, design), test));
+                                              const WantedTest& wanted) const {
+  return tests_.at(tester::simulation_key(simulation_of(request, design, wanted.specimen), wanted.test));
 }
 
 wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, const pattern::Design& design) const {
   wire::SimulatedDesign whole;
   whole.design = design;
-  for (tester::TestKind test : tests_of(request)) {
-    const OpenTest& asked = open_test(request, design, test);
-    if (const std::string& failure = asked.failure(wanted_extras(request, test)); !failure.empty()) {
+  std::vector<wire::SimulatedDesign> specimens;
+  for (const WantedTest& wanted : tests_of(request)) {
+    const OpenTest& asked = open_test(request, design, wanted);
+    if (const std::string& failure = asked.failure(wanted.extras); !failure.empty()) {
+      const std::string which = request.specimens > 1 ? fmt::format(" of specimen {}", wanted.specimen) : "";
       wire::SimulatedDesign failed;
       failed.design = design;
-      failed.failure = fmt::format("{}: {}", tester::to_string(test), failure);
+      failed.failure = fmt::format("{}{}: {}", tester::to_string(wanted.test),
+                                   wanted.test == tester::TestKind::toughness ? which : "", failure);
       return failed;
     }
-    const wire::SimulatedDesign& part = asked.response.design;
-    if (test == tester::TestKind::modulus) {
-      whole.modulus_pa = part.modulus_pa;
-      continue;
-    }
-    whole.toughness_pa = part.toughness_pa;
-    whole.peak_stress_pa = part.peak_stress_pa;
-    whole.failure_strain = part.failure_strain;
-    if (request.curve_points > 0) {
-      const int stored = static_cast<int>(part.curve.size());
-      whole.curve =
-          request.curve_points < stored ? tester::resampled(part.curve, std::max(2, request.curve_points)) : part.curve;
-    }
+    if (wanted.test == tester::TestKind::modulus)
+      whole.modulus_pa = asked.response.design.modulus_pa;
+    else
+      specimens.push_back(asked.response.design);
+  }
+  if (specimens.empty()) return whole;
+  average(specimens, whole);
+  whole.specimens = request.specimens;
+  if (request.curve_points > 0) {
+    const tester::Curve& curve = specimens.front().curve;
+    whole.curve = request.curve_points < static_cast<int>(curve.size())
+                      ? tester::resampled(curve, std::max(2, request.curve_points))
+                      : curve;
   }
   return whole;
 }
@@ -171,11 +188,12 @@ void FarmCore::respond(const wire::SimulateRequest& request, runtime::Outputs& o
   for (const wire::SimulateResult& part : wire::simulate_response(request.request_id, results)) {
     outputs.messages.push_back({"SIMULATED", wire::write(part)});
   }
-  if (!wanted_extras(request, tester::TestKind::toughness).fracture() || !request.toughness) return;
+  const std::vector<WantedTest> tests = tests_of(request);
+  const auto filmed = std::ranges::find_if(tests, [](const WantedTest& each) { return each.extras.fracture(); });
+  if (filmed == tests.end()) return;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].failure.empty()) continue;
-    std::optional<wire::Fracture> fracture =
-        open_test(request, request.designs[i], tester::TestKind::toughness).response.fracture;
+    std::optional<wire::Fracture> fracture = open_test(request, request.designs[i], *filmed).response.fracture;
     if (!fracture) continue;
     fracture->request_id = request.request_id;
     fracture->design_index = static_cast<int>(i);

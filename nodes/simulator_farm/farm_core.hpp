@@ -19,8 +19,9 @@ inline constexpr int kCurvePoints = store::kKeptCurvePoints;
 
 /// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per test that nobody has requested yet, SIMULATED
 /// out when all tests of a request are done, and a FRACTURE per design where crack or film was asked for. A test
-/// request is one design, one test, one set of parameters and conditions; its simulation_key is the id of its Compute.
-/// Equal test requests of different requests are computed once. Computes are handed out in the order of the requests.
+/// request is one design, one test of one specimen, one set of parameters and conditions; its simulation_key is the id
+/// of its Compute. Equal test requests of different requests are computed once. Computes are handed out in the order of
+/// the requests.
 class FarmCore : public runtime::NodeCore {
  public:
   runtime::Outputs step(const runtime::Input& input) override;
@@ -29,6 +30,7 @@ class FarmCore : public runtime::NodeCore {
  private:
   struct OpenTest {
     tester::TestKind test = tester::TestKind::modulus;
+    int specimen = 0;
     bool is_done = false;
     bool running = false;
     Extras has, computing;  ///< of the response, and of the one that is being computed
@@ -50,7 +52,7 @@ class FarmCore : public runtime::NodeCore {
   void launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
               const Extras& wanted, runtime::Outputs& outputs);
   const OpenTest& open_test(const wire::SimulateRequest& request, const pattern::Design& design,
-                            tester::TestKind test) const;
+                            const WantedTest& wanted) const;
   void respond(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
   wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
 

@@ -126,10 +126,11 @@ AskedSimulation asked_in(const std::string& spec) {
                            (test_request ? spec : test_request.error().message));
   }
   AskedSimulation asked;
-  asked.test = tests_of(*test_request).front();
-  asked.simulation = simulation_of(*test_request, test_request->designs.front());
+  const WantedTest wanted = tests_of(*test_request).front();
+  asked.test = wanted.test;
+  asked.simulation = simulation_of(*test_request, test_request->designs.front(), wanted.specimen);
   asked.key = tester::simulation_key(asked.simulation, asked.test);
-  asked.extras = wanted_extras(*test_request, asked.test);
+  asked.extras = wanted.extras;
   return asked;
 }
 
@@ -170,6 +171,8 @@ std::string simulate_work(store::SimulationCache& cache, const std::filesystem::
                      .failure = std::move(known.failure),
                      .modulus_pa = known.modulus_pa,
                      .toughness_pa = known.toughness_pa,
+                     .toughness_sd_pa = 0.0,
+                     .specimens = asked.test == tester::TestKind::toughness ? 1 : 0,
                      .peak_stress_pa = known.peak_stress_pa,
                      .failure_strain = known.failure_strain,
                      .curve = {}};

@@ -5,6 +5,7 @@
 #include "game/model.hpp"
 #include "runtime/journal.hpp"
 #include "simulator_farm/farm_core.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::simulator_farm {
 namespace {
@@ -25,31 +26,40 @@ std::string to_string(const Extras& extras) {
   return text;
 }
 
-Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test) {
-  if (test != tester::TestKind::toughness) return {};
-  return {.curve = request.curve_points > 0, .crack = request.crack, .film = request.film};
-}
-
-tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design) {
-  return {design, game::material_side(request.parameters), request.conditions, request.fidelity};
-}
-
-std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request) {
-  std::vector<tester::TestKind> tests;
-  if (request.modulus) tests.push_back(tester::TestKind::modulus);
-  if (request.toughness) tests.push_back(tester::TestKind::toughness);
+std::vector<WantedTest> tests_of(const wire::SimulateRequest& request) {
+  std::vector<WantedTest> tests;
+  if (request.modulus) tests.push_back({tester::TestKind::modulus, 0, {}});
+  if (!request.toughness) return tests;
+  const bool differ = tester::specimens_differ(request.parameters);
+  const int first = differ ? request.first_specimen : 0, count = differ ? request.specimens : 1;
+  for (int specimen = first; specimen < first + count; ++specimen)
+    tests.push_back({tester::TestKind::toughness, specimen, {}});
+  tests[request.modulus ? 1 : 0].extras = {
+      .curve = request.curve_points > 0, .crack = request.crack, .film = request.film};
   return tests;
 }
 
+Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test, int specimen) {
+  for (const WantedTest& each : tests_of(request))
+    if (each.test == test && each.specimen == specimen) return each.extras;
+  return {};
+}
+
+tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design, int specimen) {
+  return {design, game::material_side(request.parameters), request.conditions, request.fidelity, specimen};
+}
+
 wire::SimulateRequest test_request_of(const wire::SimulateRequest& request, const pattern::Design& design,
-                                      tester::TestKind test, const Extras& extras) {
+                                      const WantedTest& wanted) {
   wire::SimulateRequest test_request = request;
   test_request.request_id = kRequestId;
-  test_request.modulus = test == tester::TestKind::modulus;
-  test_request.toughness = test == tester::TestKind::toughness;
-  test_request.curve_points = extras.curve ? kCurvePoints : 0;
-  test_request.crack = extras.crack;
-  test_request.film = extras.film;
+  test_request.modulus = wanted.test == tester::TestKind::modulus;
+  test_request.toughness = wanted.test == tester::TestKind::toughness;
+  test_request.first_specimen = wanted.specimen;
+  test_request.specimens = 1;
+  test_request.curve_points = wanted.extras.curve ? kCurvePoints : 0;
+  test_request.crack = wanted.extras.crack;
+  test_request.film = wanted.extras.film;
   test_request.parameters = simulation_of(request, design).parameters;
   test_request.designs = {design};
   return test_request;

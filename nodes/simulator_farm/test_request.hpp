@@ -1,5 +1,5 @@
 #pragma once
-// A SIMULATE request taken apart into test requests: one design and one test each.
+// A SIMULATE request taken apart into test requests: one design, one test and one specimen each.
 
 #include <optional>
 #include <string>
@@ -25,19 +25,25 @@ Extras operator|(const Extras& a, const Extras& b);
 /// "curve+film": for ids.
 std::string to_string(const Extras& extras);
 
-/// What a request wants of a test.
-Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test);
+/// A test of every design of a request.
+struct WantedTest {
+  tester::TestKind test = tester::TestKind::modulus;
+  int specimen = 0;  ///< of a fracture test
+  Extras extras;     ///< of the first specimen alone
+};
+/// Tests of a request. Where all specimens of a design are alike, one stands for all.
+std::vector<WantedTest> tests_of(const wire::SimulateRequest& request);
+
+/// What the request wants beside the numbers of that specimen's test; nothing where it does not want the test.
+Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test, int specimen);
 
 /// What the testers simulate for a design of the request. Effects of the testing machine are left out: the simulator
 /// does not know them.
-tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design);
-
-/// Tests of a request.
-std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request);
+tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design, int specimen = 0);
 
 /// The test request that is a Compute's spec.
 wire::SimulateRequest test_request_of(const wire::SimulateRequest& request, const pattern::Design& design,
-                                      tester::TestKind test, const Extras& extras);
+                                      const WantedTest& wanted);
 
 /// Result of a Compute: the response to one test request, and how the design broke when that was asked for and the
 /// simulation did not fail.

@@ -61,7 +61,7 @@ sysid::WantedEvaluation evaluation_of_all(const std::string& id, const material:
   sysid::WantedEvaluation evaluation{
       .id = id, .parameters = parameters, .modulus = true, .toughness = true, .items = {}};
   for (std::size_t item = 0; item < count; ++item) evaluation.items.push_back(item);
-  return evaluation;
+  return sysid::as_prediction(std::move(evaluation));
 }
 
 /// As recorded by the testing machine.

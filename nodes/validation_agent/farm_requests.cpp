@@ -50,6 +50,8 @@ std::vector<wire::SimulateRequest> FarmRequests::ask(const FarmBatch& batch) {
         request.fidelity = batch.fidelity;
         request.conditions = measured[each.items[items[first]]].conditions;
         request.parameters = game::material_side(each.parameters);
+        request.first_specimen = each.first_specimen;
+        request.specimens = each.specimens;
         request.curve_points = each.toughness ? batch.curve_points : 0;
         Place place{evaluation, {}, each.modulus, each.toughness};
         for (std::size_t index = first; index < std::min(first + wire::kMaximumDesigns, items.size()); ++index) {

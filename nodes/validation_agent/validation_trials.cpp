@@ -146,6 +146,7 @@ void ValidationCore::predict_for_trial() {
                       .toughness = false,
                       .items = numbers(proposed, designs.size())});
   }
+  for (sysid::WantedEvaluation& each : wanted) each = sysid::as_prediction(std::move(each));
   phase_ = Phase::predicting_trial;
   ask_farm("f", wanted, designs);
 }

@@ -81,6 +81,22 @@ TEST(Realisations, TheBestOfNFallBackAndOthersAreSimulatedInTheirPlace) {
   }
 }
 
+TEST(Realisations, OfSpecimensThatDifferOnlyFurtherOnesCount) {
+  Realisations realisations(gamut(), {}, kDraws, 7, "test");
+  wire::SimulateRequest varied = model();
+  varied.parameters.strength_cv = 0.1;
+  for (auto requests = realisations.next(varied); !requests.empty(); requests = realisations.next(varied)) {
+    ASSERT_THAT(requests, SizeIs(1));
+    EXPECT_EQ(requests[0].parameters, varied.parameters);
+    EXPECT_GT(requests[0].first_specimen, 0) << "specimen 0 chose the design";
+    EXPECT_EQ(requests[0].specimens, kDraws);
+    realisations.take(requests[0].request_id, response(requests[0], gamut()));
+  }
+  EXPECT_EQ(realisations.simulated(), 16 * kDraws);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_NEAR(realisations.gamut()[i].performance.toughness_pa, gamut()[i].performance.toughness_pa / 3.0, 1e-3);
+}
+
 TEST(Realisations, TheOrderOfResponsesChangesNothing) { EXPECT_EQ(drawn({}).gamut(), drawn({}, true).gamut()); }
 
 TEST(Realisations, WhatCannotBeSelectedIsSimulatedAgainOnTheFrontOnly) {

@@ -127,6 +127,62 @@ TEST(SimulatorFarm, ResponsesComeInTheOrderOfTheRequestWhateverTheOrderOfTheResu
   EXPECT_EQ(parts[0].results[2].design, kMixed);
 }
 
+wire::SimulateRequest specimens_from(const std::string& id, int first, int count, double strength_cv = 0.1) {
+  wire::SimulateRequest wanted = request(id, {kMixed}, 8);
+  wanted.modulus = false;
+  wanted.parameters.strength_cv = strength_cv;
+  wanted.first_specimen = first;
+  wanted.specimens = count;
+  return wanted;
+}
+
+/// T is its number in units of 100 kPa.
+runtime::WorkDone specimen_done(const Compute& compute) {
+  const auto test_request = wire::read<wire::SimulateRequest>(compute.spec).value();
+  EXPECT_EQ(test_request.specimens, 1);
+  TestResponse response{made_up(test_request), std::nullopt};
+  response.design.toughness_pa = 1e5 * test_request.first_specimen;
+  return {compute.id, write_response(response)};
+}
+
+TEST(SimulatorFarm, TIsTheMeanOverSpecimensAndTheCurveTheFirstOnes) {
+  FarmCore farm;
+  const std::vector<Compute> computes = ask(farm, specimens_from("node/1", 4, 3)).computes;
+  ASSERT_THAT(computes, SizeIs(3));
+  Outputs last;
+  for (auto compute = computes.rbegin(); compute != computes.rend(); ++compute)
+    last = farm.step(specimen_done(*compute));
+  const wire::SimulatedDesign result = responses(last).at(0).results.at(0);
+  EXPECT_EQ(result.toughness_pa, 5e5);
+  EXPECT_EQ(result.toughness_sd_pa, 1e5);
+  EXPECT_EQ(result.specimens, 3);
+  EXPECT_EQ(result.curve.size(), 8u);
+  // Of specimens 5 and 6 all but the curve of the first is known.
+  const std::vector<Compute> more = ask(farm, specimens_from("node/2", 5, 2)).computes;
+  ASSERT_THAT(more, SizeIs(1));
+  EXPECT_EQ(responses(farm.step(specimen_done(more[0]))).at(0).results.at(0).toughness_pa, 5.5e5);
+}
+
+TEST(SimulatorFarm, OneOfAlikeSpecimensStandsForAll) {
+  FarmCore farm;
+  const std::vector<Compute> computes = ask(farm, specimens_from("node/1", 4, 3, 0.0)).computes;
+  ASSERT_THAT(computes, SizeIs(1));
+  const wire::SimulatedDesign result = responses(farm.step(done(computes[0]))).at(0).results.at(0);
+  EXPECT_EQ(result.specimens, 3);
+  EXPECT_EQ(result.toughness_sd_pa, 0.0);
+}
+
+TEST(SimulatorFarm, ASpecimenThatCannotBeTestedIsNamed) {
+  FarmCore farm;
+  const std::vector<Compute> computes = ask(farm, specimens_from("node/1", 4, 2)).computes;
+  farm.step(specimen_done(computes[0]));
+  TestResponse failed;
+  failed.design.design = kMixed;
+  failed.design.failure = "J <= 0";
+  const auto parts = responses(farm.step(runtime::WorkDone{computes[1].id, write_response(failed)}));
+  EXPECT_EQ(parts.at(0).results.at(0).failure, "toughness of specimen 5: J <= 0");
+}
+
 TEST(SimulatorFarm, EqualTestsOfDifferentRequestsAreComputedOnce) {
   FarmCore farm;
   const auto first = ask(farm, request("a/1", {kRigid, kSoft}));
@@ -320,7 +376,7 @@ class SimulateWork : public testing::Test {
 
 TEST_F(SimulateWork, TheSameTestIsSimulatedOnceEvenByTwoFarms) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, {tester::TestKind::modulus, 0, {}});
   const std::string first = work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request));
   EXPECT_EQ(cache->size(), 1);
   auto second_cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
@@ -335,7 +391,7 @@ TEST_F(SimulateWork, ToughnessAndCurveAgree) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
   const auto test_request =
-      test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {.curve = true});
+      test_request_of(request("a/1", {design}), design, {tester::TestKind::toughness, 0, {.curve = true}});
   const auto result = wire::read<wire::SimulateResult>(
       work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request)));
   ASSERT_TRUE(result);
@@ -349,8 +405,9 @@ TEST_F(SimulateWork, ToughnessAndCurveAgree) {
 TEST_F(SimulateWork, AFilmIsMadeOnceAndTheCrackIsThatOfTheTest) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
-  const auto plain = test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {});
-  const auto filmed = test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {.film = true});
+  const auto plain = test_request_of(request("a/1", {design}), design, {tester::TestKind::toughness, 0, {}});
+  const auto filmed =
+      test_request_of(request("a/1", {design}), design, {tester::TestKind::toughness, 0, {.film = true}});
   const auto work = work_functions(cache, folder_ / "films").at("simulate");
   EXPECT_FALSE(read_response(work(wire::write(plain)))->fracture) << "nobody asked";
   const std::string bytes = work(wire::write(filmed));
@@ -374,7 +431,7 @@ TEST_F(SimulateWork, AFilmIsMadeOnceAndTheCrackIsThatOfTheTest) {
 TEST_F(SimulateWork, AFailedSimulationHasNoFracture) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const auto test_request =
-      test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::toughness, {.crack = true});
+      test_request_of(request("a/1", {kMixed}), kMixed, {tester::TestKind::toughness, 0, {.crack = true}});
   store::CachedSimulation failed;
   failed.failure = "J <= 0";
   cache->insert(tester::simulation_key(simulation_of(test_request, kMixed), tester::TestKind::toughness), failed);
@@ -399,7 +456,8 @@ class NumbersFromElsewhere : public SimulateWork {
     return numbers;
   }
   TestResponse response(const Extras& extras) const {
-    const auto test_request = test_request_of(request("a/1", {kDesign}), kDesign, tester::TestKind::toughness, extras);
+    const auto test_request =
+        test_request_of(request("a/1", {kDesign}), kDesign, {tester::TestKind::toughness, 0, extras});
     return read_response(simulate_work(*cache_, folder_ / "films", wire::write(test_request))).value();
   }
 
@@ -512,7 +570,7 @@ class ForgetfulSlurm : public SimulateWork {
 
 TEST_F(ForgetfulSlurm, ABatchThatIsGivenOutAgainHasItsFileAgain) {
   open_executor();
-  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, {tester::TestKind::modulus, 0, {}});
   executor_->start({"q", "simulate", wire::write(test_request)});
   const Spool spool(folder_ / "slurm");
   ASSERT_TRUE(becomes_true([&] { return !spool.batches().empty(); }));

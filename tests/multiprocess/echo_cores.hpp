@@ -103,7 +103,7 @@ inline std::string echo_work(const std::string& spec) {
   wire::SimulateResult result{request.request_id, 0, 1, 0, {}};
   for (const pattern::Design& design : request.designs) {
     const double modulus_pa = 1e9 * (1.0 + static_cast<double>(content_hash64(design.name()) % 1000));
-    result.results.push_back({design, "", modulus_pa, 0.0, 0.0, 0.0, {}});
+    result.results.push_back({design, "", modulus_pa, 0.0, 0.0, 0, 0.0, 0.0, {}});
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
   return wire::write(result);

@@ -321,7 +321,7 @@ TEST(Shell, CorruptAndForeignMessagesChangeNothing) {
   const auto foreign = std::move(*runtime::Bus::open(options));
   const auto disturb = [&](int i) {
     wire::SimulateResult lie{
-        "proposal_agent/0/" + std::to_string(i), 0, 1, 0, {{echo::design_of(i), "", 1.0, 0.0, 0.0, 0.0, {}}}};
+        "proposal_agent/0/" + std::to_string(i), 0, 1, 0, {{echo::design_of(i), "", 1.0, 0.0, 0.0, 0, 0.0, 0.0, {}}}};
     foreign->publish({"SIMULATED", wire::write(lie)});
     std::string bytes = wire::stamp_header("SIMULATED", wire::write(lie), {1, "simulator_farm", 1, 1, game.run_id()});
     bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 8);

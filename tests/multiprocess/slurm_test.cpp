@@ -47,7 +47,7 @@ std::vector<Compute> test_computes(int designs) {
       const simulator_farm::Extras extras{
           .curve = is_toughness && i % 2 == 0, .crack = is_toughness && i % 3 == 0, .film = is_toughness && i % 4 == 0};
       computes.push_back({fmt::format("q{}", computes.size()), "simulate",
-                          wire::write(simulator_farm::test_request_of(request, design, test, extras))});
+                          wire::write(simulator_farm::test_request_of(request, design, {test, 0, extras}))});
     }
   }
   return computes;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../grids.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/neo_hookean.hpp"
 #include "specimens.hpp"
 #include "tester/failure_criterion.hpp"
@@ -15,7 +16,7 @@
 namespace nacre {
 namespace {
 
-using tester::CriterionKind;
+using material::CriterionKind;
 using verification::patterns;
 using verification::specimen;
 
@@ -142,6 +143,26 @@ double found_fracture_energy(int elements) {
   return 2.0 / (low + high);
 }
 
+/// G over h W at which the element ahead of the tip fails by its own energy, in a square of 2 half + 1 elements.
+double element_fracture_energy(int half) {
+  const SharpCrack crack{1.0};
+  const CrackedSquare square(half, crack);
+  double low = 0.1, high = 2.0;  // W in units of G / h
+  for (int i = 0; i < 14; ++i) {
+    const double middle = 0.5 * (low + high);
+    (square.first_failure(middle * crack.release_j_per_m2 / kElementSize, 0.0) ? low : high) = middle;
+  }
+  return 2.0 / (low + high);
+}
+
+// What ranges and built-in values of W follow.
+TEST(FractureEnergy, OfElementsAndNeighbourhoodsIsThatOfTheStrengths) {
+  const double elements = element_fracture_energy(48), neighbourhood = found_fracture_energy(2);
+  std::printf("G_c: %.3f h W by elements, %.3f R W by neighbourhoods of R = 2 h\n", elements, neighbourhood);
+  EXPECT_NEAR(elements / material::kElementFractureEnergy, 1.0, 0.01);
+  EXPECT_NEAR(neighbourhood / material::kNeighbourhoodFractureEnergy, 1.0, 0.01);
+}
+
 TEST(NeighbourhoodCriterion, SharpCrackGrowsAtTheIntegratedFractureEnergy) {
   const double expected = integrated_fracture_energy();
   EXPECT_NEAR(expected, 8.0 * kPi / (1.54 * (5.0 - 3.0 * kPoisson)), 0.01 * expected);
@@ -190,13 +211,13 @@ TEST(FailureCriterion, HomogeneousStripBreaksAtTheThresholdOnEveryMesh) {
   for (const CriterionKind kind : {CriterionKind::neighbourhood, CriterionKind::crack_band})
     for (const int refinement : {1, 2})
       EXPECT_NEAR(strain_at_peak(strip(kind, threshold, refinement)), kStrain, 5e-3 * kStrain)
-          << tester::to_string(kind) << " " << refinement;
+          << material::to_string(kind) << " " << refinement;
 }
 
 /// Strain of the first failure at the notch of a specimen of rigid material, on elements of h / refinement.
 double first_failure(CriterionKind kind, int refinement) {
   tester::Simulation simulation = specimen(pattern::Mixture{1.0});
-  simulation.criterion.kind = kind;
+  simulation.parameters.criterion.kind = kind;
   simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
   const auto test = tester::fracture_test(simulation, {.refinement = refinement});
   auto solver = fem::ExplicitSolver<float>::create(test.grid, test.settings).value();
@@ -238,8 +259,8 @@ TEST(NeighbourhoodCriterion, LigamentOfOneElementTakesTheSameEnergyOnEveryMesh) 
 
 tester::Simulation of_kind(const pattern::Design& design, CriterionKind kind) {
   tester::Simulation simulation = specimen(design);
-  simulation.criterion.kind = kind;
-  simulation.strength_cv = 0.1;
+  simulation.parameters.criterion.kind = kind;
+  simulation.parameters.strength_cv = 0.1;
   return simulation;
 }
 
@@ -256,7 +277,7 @@ TEST(FailureCriterion, SameBitsFromEveryInstructionSet) {
     for (const auto& pulled : results) {
       EXPECT_GE(pulled.failed, 10);
       EXPECT_EQ(pulled.stresses_pa, results.front().stresses_pa)
-          << fem::to_string(pulled.level) << " " << tester::to_string(kind);
+          << fem::to_string(pulled.level) << " " << material::to_string(kind);
     }
   }
 }

@@ -28,7 +28,7 @@ inline std::vector<pattern::Design> patterns(int count) {
 /// A test with one instruction set: the stress at both grips step by step, and how many elements failed meanwhile.
 struct Pulled {
   fem::SimdLevel level = fem::SimdLevel::baseline;
-  std::vector<double> stresses_pa;
+  std::vector<double> stresses_pa = {};
   int failed = 0;
 };
 

@@ -79,6 +79,15 @@ TEST(FractureBench, AStripBreaksWhereItsEnergyDensityReachesTheThreshold) {
   EXPECT_NEAR(tester::area_under(pulled->curve) / threshold, 1.0, 0.1);
 }
 
+TEST(FractureBench, AStripBreaksAtTheSameStrainWhereItsNeighbourhoodsReachTheThreshold) {
+  Raster raster = strip(32, 24, 1e6);
+  raster.neighbourhood_m = 4.0 * kElementM;
+  const Result<PulledSpecimen> pulled = pull_to_separation(raster, calm_pull(0.3));
+  ASSERT_TRUE(pulled.has_value()) << pulled.error().message;
+  EXPECT_TRUE(pulled->separated);
+  EXPECT_NEAR(tester::area_under(pulled->curve) / 1e6, 1.0, 0.1);
+}
+
 TEST(FractureBench, AMirroredSpecimenGivesTheSameCurve) {
   Raster left = strip(48, 32, 5e5), right = left;
   for (int column = 0; column < 12; ++column) {

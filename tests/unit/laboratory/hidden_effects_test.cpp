@@ -18,12 +18,14 @@
 #include "laboratory/laboratory.hpp"
 #include "laboratory/laboratory_file.hpp"
 #include "laboratory/modulus_bench.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/loading.hpp"
 #include "tester/tensile.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::laboratory {
 namespace {
@@ -304,6 +306,67 @@ TEST(StrengthScatter, GivesEveryReplicateVoxelsOfItsOwn) {
   ASSERT_TRUE(response.has_value()) << response.error().message;
   ASSERT_EQ(response->other_curves.size(), 1u);
   EXPECT_NE(response->other_curves[0], response->curve);
+  // So does the variation that every print has, of which the effect is the whole.
+  truth.effects = {};
+  truth.strength_cv = 0.3;
+  EXPECT_EQ(respond(truth, experiment)->curve, response->curve);
+  EXPECT_EQ(respond(truth, experiment)->other_curves, response->other_curves);
+}
+
+/// T of the laboratory over T of the testers for one design, both without scatter.
+double laboratory_over_tester(const material::FailureCriterion& criterion) {
+  Truth truth = plain_truth();
+  truth.criterion = criterion;
+  truth.toughness = material::with_strengths(truth.toughness, material::strength_ratio(criterion));
+  const Experiment experiment{
+      .design = some_pattern(), .test = TestKind::toughness, .conditions = {}, .fidelity = tester::Fidelity::tiny};
+  tester::Simulation simulation{.design = experiment.design,
+                                .parameters = material::default_parameters(),
+                                .conditions = {},
+                                .fidelity = experiment.fidelity};
+  simulation.parameters.toughness = truth.toughness;
+  simulation.parameters.criterion = criterion;
+  const double ratio =
+      tester::area_under(respond(truth, experiment)->curve) / tester::test_toughness(simulation)->toughness_pa;
+  std::printf("%s: laboratory over testers %.3f\n", std::string(to_string(criterion.kind)).c_str(), ratio);
+  return ratio;
+}
+
+TEST(HiddenCriteria, NeighbourhoodsAbsorbWhatTheTestersDo) {
+  EXPECT_NEAR(laboratory_over_tester({.kind = material::CriterionKind::neighbourhood}), 1.0, 0.25) << "one crack each";
+}
+
+TEST(HiddenCriteria, WithALengthKeepTheStrengthAndDrawTailsOut) {
+  using material::CriterionKind;
+  const SpecimenSize size = specimen_size(TestKind::toughness, tester::Fidelity::tiny);
+  const auto of = [&](CriterionKind kind, double progressive_damage) {
+    Truth truth = plain_truth();
+    truth.criterion.kind = kind;
+    truth.effects.progressive_damage = progressive_damage;
+    return fracture_raster(truth, some_pattern(), {}, size);
+  };
+  const Raster elements = of(CriterionKind::element, 1.0);
+  EXPECT_EQ(elements.law.linear_softening, 1.0);
+  for (const CriterionKind kind : {CriterionKind::neighbourhood, CriterionKind::crack_band}) {
+    const Raster raster = of(kind, 1.0);
+    EXPECT_EQ(raster.threshold_j_per_m3[0], 0.5 * elements.threshold_j_per_m3[0]);
+    EXPECT_EQ(raster.law.linear_softening, 3.0);
+    EXPECT_EQ(raster.neighbourhood_m > 0.0, kind == CriterionKind::neighbourhood);
+  }
+  EXPECT_EQ(of(CriterionKind::crack_band, 0.0).law.linear_softening, 7.0) << "1 + v0 = 4 on elements of h";
+}
+
+// A single row, and neighbourhoods of one element.
+TEST(HiddenCriteria, WhatANeighbourhoodFailsSoftens) {
+  Raster sharp = strip(1);
+  std::fill(sharp.threshold_j_per_m3.begin(), sharp.threshold_j_per_m3.end(), 5e5);
+  sharp.neighbourhood_m = kElementM;
+  Raster linear = sharp;
+  linear.law.linear_softening = 1.0;
+  const double at_once = tester::area_under(pulled(sharp, 0.3)), work = tester::area_under(pulled(linear, 0.3));
+  EXPECT_NEAR(at_once, 5e5, 0.1 * 5e5);
+  EXPECT_GT(work, 1.5 * at_once);
+  EXPECT_LT(work, 2.1 * at_once);
 }
 
 TEST(Grips, FrictionStiffensASquareAndTiltKeepsASymmetricModulus) {

@@ -81,6 +81,19 @@ TEST(LaboratoryFile, WrittenTruthReadsBackToTheLastBit) {
   }
 }
 
+TEST(LaboratoryFile, CriterionAndVariationOfStrengthStandWithEta) {
+  Truth truth = draw_truth(3, tester::Fidelity::preview);
+  for (const material::CriterionKind kind :
+       {material::CriterionKind::neighbourhood, material::CriterionKind::crack_band}) {
+    truth.criterion = {.kind = kind};
+    truth.strength_cv = 0.13;
+    EXPECT_EQ(parse_laboratory(to_toml(truth), "truth"), truth);
+  }
+  for (const char* fault : {"strength_cv = 0.01", "strength_cv = 0.5", "criterion = \"cohesive\"",
+                            "criterion = \"neighbourhood\"\nradius_m = 0.0"})
+    EXPECT_THROW((void)parse_laboratory(fmt::format("[toughness]\n{}\n", fault), "lab.toml"), InputError) << fault;
+}
+
 TEST(LaboratoryFile, AbsentTablesAreDrawnFromTheSeedAndGivenKeysReplaceThem) {
   const Truth truth = parse_laboratory("seed = 9\nfidelity = \"preview\"\n[modulus]\ne_if_pa = 6e8\n", "lab.toml");
   material::ModulusParameters expected = draw_modulus_parameters(9);

@@ -66,6 +66,20 @@ TEST(ParameterFile, WrittenIsReadBackToTheBit) {
   EXPECT_EQ(read_parameters(written(to_toml(set)), ParameterSet{}), set);
 }
 
+TEST(ParameterFile, HoldsCriterionAndVariationOfStrength) {
+  for (const CriterionKind kind : {CriterionKind::element, CriterionKind::neighbourhood, CriterionKind::crack_band}) {
+    ParameterSet set = default_parameters();
+    set.strength_cv = 0.1;
+    set.criterion.kind = kind;
+    EXPECT_EQ(read_parameters(written(to_toml(set)), ParameterSet{}), set);
+  }
+  EXPECT_THAT(error_of("[toughness]\n\nstrength_cv = 0.01\n"), HasSubstr(".toml:3:"));
+  EXPECT_THAT(error_of("[toughness]\nstrength_cv = 0.01\n"), HasSubstr("expected 0 or 0.02 to 0.4"));
+  EXPECT_THAT(error_of("[toughness]\ncriterion = \"cohesive\"\n"), HasSubstr("expected one of element, neighbourhood"));
+  EXPECT_THAT(error_of("[toughness]\ncriterion = \"crack_band\"\nsoftening = -1\n"), HasSubstr("softening"));
+  EXPECT_THAT(error_of("[toughness]\ncriterium = 3\n"), HasSubstr("strength_cv, criterion"));
+}
+
 TEST(ParameterFile, AbsentKeysKeepTheStart) {
   const ParameterSet set = read_parameters(written("[modulus]\ne_vw_pa = 2e9\n"), default_parameters());
   ParameterSet expected = default_parameters();

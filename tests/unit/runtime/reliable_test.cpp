@@ -225,7 +225,8 @@ TEST(Outbox, AnAcknowledgementIsWorthAsMuchAsItsJournal) {
 }
 
 TEST(Outbox, AResponseIsRepeatedForARequesterThatAsksAgainInANewProcess) {
-  wire::SimulateResult result{"proposal_agent/0/1", 0, 1, 0, {{pattern::Mixture{1.0}, "", 1e9, 0.0, 0.0, 0.0, {}}}};
+  wire::SimulateResult result{
+      "proposal_agent/0/1", 0, 1, 0, {{pattern::Mixture{1.0}, "", 1e9, 0.0, 0.0, 0, 0.0, 0.0, {}}}};
   Outbox outbox;
   outbox.saw("proposal_agent", 1, 1);
   outbox.offer("h", {"SIMULATED", wire::write(result)}, {"proposal_agent"});

@@ -8,10 +8,12 @@
 namespace nacre::tester {
 namespace {
 
+using material::CriterionKind;
+
 TEST(FailureCriterion, HasNames) {
   for (const CriterionKind kind : {CriterionKind::element, CriterionKind::neighbourhood, CriterionKind::crack_band})
-    EXPECT_EQ(criterion_from_string(to_string(kind)).value(), kind);
-  EXPECT_NE(criterion_from_string("cohesive").error().message.find("neighbourhood"), std::string::npos);
+    EXPECT_EQ(material::criterion_from_string(to_string(kind)).value(), kind);
+  EXPECT_NE(material::criterion_from_string("cohesive").error().message.find("neighbourhood"), std::string::npos);
 }
 
 TEST(FailureCriterion, OfTheThesisChangesNothing) {
@@ -52,12 +54,12 @@ Simulation question() {
 TEST(FailureCriterion, IsPartOfTheKeyOfAFractureTest) {
   const std::string plain = simulation_key(question(), TestKind::toughness);
   Simulation other = question();
-  other.criterion = {.radius_m = 1e-3, .softening = 1.0};
+  other.parameters.criterion = {.radius_m = 1e-3, .softening = 1.0};
   EXPECT_EQ(simulation_key(other, TestKind::toughness), plain) << "the thesis' criterion has neither";
   for (const CriterionKind kind : {CriterionKind::neighbourhood, CriterionKind::crack_band}) {
     Simulation first = question(), second = question();
-    first.criterion.kind = second.criterion.kind = kind;
-    second.criterion.radius_m *= 2.0, second.criterion.softening *= 2.0;
+    first.parameters.criterion.kind = second.parameters.criterion.kind = kind;
+    second.parameters.criterion.radius_m *= 2.0, second.parameters.criterion.softening *= 2.0;
     EXPECT_NE(simulation_key(first, TestKind::toughness), plain);
     EXPECT_NE(simulation_key(first, TestKind::toughness), simulation_key(second, TestKind::toughness));
     EXPECT_EQ(simulation_key(first, TestKind::modulus), simulation_key(question(), TestKind::modulus));
@@ -66,12 +68,12 @@ TEST(FailureCriterion, IsPartOfTheKeyOfAFractureTest) {
 
 TEST(FailureCriterion, OutOfRangeIsAFault) {
   Simulation simulation = question();
-  simulation.criterion = {.kind = CriterionKind::neighbourhood, .radius_m = 0.0};
+  simulation.parameters.criterion = {.kind = CriterionKind::neighbourhood, .radius_m = 0.0};
   EXPECT_NE(simulation_fault(simulation, TestKind::toughness).find("radius"), std::string::npos);
   EXPECT_EQ(simulation_fault(simulation, TestKind::modulus), "");
-  simulation.criterion = {.kind = CriterionKind::crack_band, .softening = 100.0};
+  simulation.parameters.criterion = {.kind = CriterionKind::crack_band, .softening = 100.0};
   EXPECT_NE(simulation_fault(simulation, TestKind::toughness).find("softening"), std::string::npos);
-  simulation.criterion.softening = 3.0;
+  simulation.parameters.criterion.softening = 3.0;
   EXPECT_EQ(simulation_fault(simulation, TestKind::toughness), "");
 }
 

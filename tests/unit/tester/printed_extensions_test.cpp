@@ -153,7 +153,9 @@ TEST(StrengthScatter, HasTheDeclaredVariationAndKeepsTheMean) {
 
 TEST(StrengthScatter, IsTheSameVoxelsWhateverItsSizeAndOthersInAnotherSpecimen) {
   const auto thresholds = [](double variation, int specimen) {
-    return fracture_test(with({{"strength_scatter", {variation}}}), {.specimen = specimen}).grid.threshold_j_per_m3;
+    Simulation simulation = with({{"strength_scatter", {variation}}});
+    simulation.specimen = specimen;
+    return fracture_test(simulation).grid.threshold_j_per_m3;
   };
   const std::vector<double> base = thresholds(0.0, 0), weak = thresholds(0.1, 0), strong = thresholds(0.3, 0);
   int further = 0, standing = 0;

@@ -45,10 +45,21 @@ TEST(SimulationKey, ChangesWithDesignFidelityAndOrientation) {
 }
 
 TEST(SimulationKey, OfTheToughnessChangesWithTheVariationOfStrength) {
-  const auto varied = [](Simulation& s) { s.strength_cv = 0.1; };
+  const auto varied = [](Simulation& s) { s.parameters.strength_cv = 0.1; };
   EXPECT_TRUE(distinguishes(TestKind::toughness, varied));
   EXPECT_FALSE(distinguishes(TestKind::modulus, varied));
-  EXPECT_FALSE(distinguishes(TestKind::toughness, [](Simulation& s) { s.strength_cv = 0.0; }));
+  EXPECT_FALSE(distinguishes(TestKind::toughness, [](Simulation& s) { s.parameters.strength_cv = 0.0; }));
+}
+
+TEST(SimulationKey, TellsSpecimensApartThatDiffer) {
+  const auto second = [](Simulation& s) { s.specimen = 1; };
+  EXPECT_FALSE(distinguishes(TestKind::toughness, second)) << "all specimens are alike";
+  Simulation one = question();
+  one.parameters.strength_cv = 0.1;
+  Simulation other = one;
+  other.specimen = 1;
+  EXPECT_NE(simulation_key(one, TestKind::toughness), simulation_key(other, TestKind::toughness));
+  EXPECT_EQ(simulation_key(one, TestKind::modulus), simulation_key(other, TestKind::modulus));
 }
 
 // The keys of caches that there are: without a variation of strength none has changed.

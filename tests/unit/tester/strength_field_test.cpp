@@ -16,26 +16,30 @@
 namespace nacre::tester {
 namespace {
 
+/// Of specimen 0.
 Simulation of_cv(double strength_cv, Fidelity fidelity = Fidelity::tiny) {
-  return {.design = pattern::design_from_name("577fffe9fffdef").value(),
-          .parameters = material::default_parameters(),
-          .conditions = {},
-          .fidelity = fidelity,
-          .strength_cv = strength_cv};
+  Simulation simulation{.design = pattern::design_from_name("577fffe9fffdef").value(),
+                        .parameters = material::default_parameters(),
+                        .conditions = {},
+                        .fidelity = fidelity};
+  simulation.parameters.strength_cv = strength_cv;
+  return simulation;
 }
 
 /// Of the notched specimen, element by element.
-std::vector<double> thresholds(const Simulation& simulation, int specimen) {
-  return fracture_test(simulation, {.specimen = specimen}).grid.threshold_j_per_m3;
+std::vector<double> thresholds(Simulation simulation, int specimen) {
+  simulation.specimen = specimen;
+  return fracture_test(simulation).grid.threshold_j_per_m3;
 }
 
 /// Factors of the field, element by element of the whole specimen.
-std::vector<double> factors(const Simulation& simulation, int specimen = 0, int refinement = 1) {
+std::vector<double> factors(Simulation simulation, int specimen = 0, int refinement = 1) {
   const SpecimenUnits units = toughness_units(simulation.fidelity);
   fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
                             units.x, units.y, refinement);
   std::vector<double> result = grid.threshold_j_per_m3;
-  draw_strengths(grid, refinement, simulation, specimen);
+  simulation.specimen = specimen;
+  draw_strengths(grid, refinement, simulation);
   for (std::size_t e = 0; e < result.size(); ++e) result[e] = grid.threshold_j_per_m3[e] / result[e];
   return result;
 }
@@ -146,7 +150,9 @@ TEST(ExpectedToughness, IsTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(alone.specimens[i].breaks, three.specimens[i].breaks);
   }
   EXPECT_NE(alone.specimens[0].toughness_pa, alone.specimens[1].toughness_pa);
-  EXPECT_EQ(alone.specimens[2].curve, test_toughness(of_cv(0.1), {.specimen = 2}).value().curve);
+  Simulation third = of_cv(0.1);
+  third.specimen = 2;
+  EXPECT_EQ(alone.specimens[2].curve, test_toughness(third).value().curve);
 }
 
 TEST(ExpectedToughness, WithoutAFieldIsThatOfTheOneSpecimenThereIs) {

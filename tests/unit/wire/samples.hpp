@@ -24,6 +24,10 @@ inline SimulateRequest request() {
   request.fidelity = tester::Fidelity::preview;
   request.conditions = {90.0, 1e-3, 3.2};
   request.parameters = material::default_parameters();
+  request.parameters.criterion = {.kind = material::CriterionKind::neighbourhood, .radius_m = 5e-4};
+  request.parameters.strength_cv = 0.1;
+  request.first_specimen = 3;
+  request.specimens = 8;
   request.curve_points = 100;
   request.designs = {pattern::Pattern(0x577fffe9fffdef), pattern::Mixture{0.65}, pattern::Mixture{0.0}};
   return request;
@@ -32,8 +36,8 @@ inline SimulateRequest request() {
 inline SimulateResult result() {
   SimulateResult result{"proposal_agent/0/17", 0, 2, 0, {}};
   result.results.push_back(
-      {pattern::Pattern(0x3ffc9b4ad4d2d9), "", 1.5e9, 2e6, 3e7, 0.25, {{0.0, 0.5}, {0.0, 1024.0}}});
-  result.results.push_back({pattern::Mixture{1.0}, "J <= 0 at element 7", 0.0, 0.0, 0.0, 0.0, {}});
+      {pattern::Pattern(0x3ffc9b4ad4d2d9), "", 1.5e9, 2e6, 3e5, 8, 3e7, 0.25, {{0.0, 0.5}, {0.0, 1024.0}}});
+  result.results.push_back({pattern::Mixture{1.0}, "J <= 0 at element 7", 0.0, 0.0, 0.0, 0, 0.0, 0.0, {}});
   return result;
 }
 
