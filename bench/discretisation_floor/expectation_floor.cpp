@@ -24,6 +24,7 @@ std::string criterion_text(const SpecimenPlan& specimens) {
   if (criterion.kind != material::CriterionKind::element)
     text +=
         fmt::format(" {} {}", material::to_string(criterion.kind), is_band ? criterion.softening : criterion.radius_m);
+  if (specimens.tail > 0.0) text += fmt::format(" tail {}", specimens.tail);
   return text;
 }
 
@@ -32,6 +33,7 @@ FloorPlan with_strengths(FloorPlan plan, const SpecimenPlan& specimens) {
   for (material::ParameterSet& set : plan.sets) {
     set.criterion = specimens.criterion;
     set.strength_cv = specimens.strength_cv;
+    if (specimens.tail > 0.0) set.extensions["progressive_damage"] = {specimens.tail};
     for (double* threshold : {&set.toughness.w_tb_j_per_m3, &set.toughness.w_vw_j_per_m3, &set.toughness.w_if_j_per_m3})
       *threshold *= specimens.strength_factor;
   }

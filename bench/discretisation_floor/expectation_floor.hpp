@@ -16,6 +16,7 @@ struct SpecimenPlan {
   int coarse = 0, fine = 0;  ///< specimens 0 .. n - 1 on elements of h / refinement and of h / (2 refinement)
   int refinement = 1;        ///< of the coarse mesh
   material::FailureCriterion criterion = {};
+  double tail = 0.0;             ///< `progressive_damage` beside the criterion
   double strength_factor = 1.0;  ///< on every W, which differs between criteria of the same fracture energy
 };
 

@@ -77,6 +77,8 @@ int main(int argc, char** argv) {
   app.add_option("--criterion", options.criterion, "element, neighbourhood or crack_band")->capture_default_str();
   app.add_option("--radius", options.specimens.criterion.radius_m, "Of the neighbourhood, m")->capture_default_str();
   app.add_option("--softening", options.specimens.criterion.softening, "v0 of the crack band")->capture_default_str();
+  app.add_option("--tail", options.specimens.tail, "Size of progressive_damage beside the criterion")
+      ->check(CLI::Range(0.1, 10.0));
   app.add_option("--strength-factor", options.specimens.strength_factor, "On every W, in a comparison of specimens")
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
