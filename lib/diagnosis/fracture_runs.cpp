@@ -64,7 +64,13 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
       return other.parameters.toughness == simulated.toughness && other.parameters.extensions == simulated.extensions;
     };
     if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
-    wanted.push_back({fmt::format("run {}", runs_.size() + wanted.size()), simulated, false, true, items});
+    // A run breaks specimens of its own, so that what is fitted through all of them averages cracks.
+    const int number = static_cast<int>(runs_.size() + wanted.size());
+    wanted.push_back({.id = fmt::format("run {}", number),
+                      .parameters = simulated,
+                      .toughness = true,
+                      .items = items,
+                      .first_specimen = tester::kFirstCalibrationSpecimen + number});
   }
   auto predictions = simulator_->simulate(measured_, wanted, done);
   for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(predictions[k])});
