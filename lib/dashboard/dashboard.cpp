@@ -221,7 +221,7 @@ std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string
 }
 
 Result<material::ParameterSet> Dashboard::parameters_of(const FractureRequest& fracture) {
-  if (fracture.model == kStart) return game::starting_model(settings_.scenario);
+  if (fracture.model == kStart) return game::starting_model(settings_.scenario).parameters;
   if (!fracture.is_of_folder)
     if (const auto parameters = model_of_game(fracture.model)) return *parameters;
   if (is_round(fracture.model)) return fail("round {} has no model yet", fracture.model);

@@ -13,6 +13,7 @@
 #include "base/toml_file.hpp"
 #include "laboratory/draw.hpp"
 #include "laboratory/effect_kinds.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/parameter_file.hpp"
 #include "measurement/limits.hpp"
 
@@ -35,7 +36,7 @@ class Section {
       : table_(table), source_(source), prefix_(std::move(prefix)) {}
 
   const toml::node* find(std::string_view key) {
-    known_.emplace_back(key);
+    if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
     return table_.get(key);
   }
   std::string name(std::string_view key) const { return prefix_ + std::string(key); }
@@ -226,9 +227,11 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
   truth.modulus = material::modulus_from_vector(read_constants(
       modulus, material::modulus_parameter_names(), material::to_vector(draw_modulus_parameters(truth.seed))));
   modulus.refuse_others();
-  truth.toughness = material::toughness_from_vector(read_constants(
-      toughness, material::toughness_parameter_names(), material::to_vector(draw_toughness_parameters(truth.seed))));
   read_failure(toughness, top.table("toughness"), source, truth);
+  const material::ToughnessParameters drawn =
+      material::with_strengths(draw_toughness_parameters(truth.seed), material::strength_ratio(truth.criterion));
+  truth.toughness = material::toughness_from_vector(
+      read_constants(toughness, material::toughness_parameter_names(), material::to_vector(drawn)));
   toughness.refuse_others();
   top.refuse_others();
   return truth;

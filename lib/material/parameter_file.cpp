@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "base/toml_file.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/effect_library.hpp"
 
 namespace nacre::material {
@@ -139,10 +140,11 @@ ParameterSet read_parameters(const std::filesystem::path& path, const ParameterS
   const FilePlace place{path.string()};
   toml::table file = read_toml_file(path);
   ModulusVector modulus = to_vector(start.modulus);
-  ToughnessVector toughness = to_vector(start.toughness);
   Extensions extensions = start.extensions;
   FailureKeys failure{start.criterion, start.strength_cv};
   if (toml::table* table = file["toughness"].as_table()) failure = take_failure_keys(place, *table, failure);
+  const double strengths = strength_ratio(failure.criterion) / strength_ratio(start.criterion);
+  ToughnessVector toughness = to_vector(with_strengths(start.toughness, strengths));
   for (const auto& [key, node] : file) {
     if (key.str() == "modulus")
       read_values(place, node, "modulus", modulus_parameter_names(), modulus);

@@ -8,9 +8,9 @@
 
 namespace nacre::material {
 
-/// Reads a parameter file; keys that are absent keep the value
-/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
-/// throw InputError naming file, line, key and what was expected.
+/// Reads a parameter file; keys that are absent keep the value of `start`, W that of the same fracture energy where the
+/// file names another criterion. Unknown tables, keys, extension names and values that are not positive finite numbers
+/// (nu: 0 to 0.5) throw InputError naming file, line, key and what was expected.
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
 std::string to_toml(const ParameterSet& parameters);
 /// The keys of [toughness] that are none of eta: strength_cv, criterion, and the number that the criterion uses.

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "material/criterion_strengths.hpp"
 #include "material/extensions.hpp"
 
 namespace nacre::material {
@@ -92,27 +93,30 @@ ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, R
   return toughness_from_vector(vector);
 }
 
-ParameterSet default_parameters() {
+ParameterSet default_parameters(const FailureCriterion& criterion) {
   // theta: moduli measured on base materials (Table 3.4), the rest the middle of Table A.2. eta: the middle of Table
   // A.2, in log10 where the range is searched so; four digits, as in data/defaults.toml.
-  return {.modulus = {.e_tb_pa = 1.0094e6,
-                      .e_vw_pa = 2.6613e9,
-                      .e_if_pa = 5.642e8,
-                      .nu_tb = 0.45,
-                      .nu_vw = 0.3,
-                      .nu_if = 0.35,
-                      .gamma_per_s = 2e5},
-          .toughness = {.e_tb_pa = 1.581e7,
-                        .e_vw_pa = 2.236e8,
-                        .e_if_pa = 7.071e7,
-                        .nu_tb = 0.45,
-                        .nu_vw = 0.3,
-                        .nu_if = 0.35,
-                        .w_tb_j_per_m3 = 2.236e5,
-                        .w_vw_j_per_m3 = 2.236e6,
-                        .w_if_j_per_m3 = 1e7,
-                        .gamma_per_s = 2.828e5},
-          .extensions = {}};
+  ParameterSet set{.modulus = {.e_tb_pa = 1.0094e6,
+                               .e_vw_pa = 2.6613e9,
+                               .e_if_pa = 5.642e8,
+                               .nu_tb = 0.45,
+                               .nu_vw = 0.3,
+                               .nu_if = 0.35,
+                               .gamma_per_s = 2e5},
+                   .toughness = {.e_tb_pa = 1.581e7,
+                                 .e_vw_pa = 2.236e8,
+                                 .e_if_pa = 7.071e7,
+                                 .nu_tb = 0.45,
+                                 .nu_vw = 0.3,
+                                 .nu_if = 0.35,
+                                 .w_tb_j_per_m3 = 2.236e5,
+                                 .w_vw_j_per_m3 = 2.236e6,
+                                 .w_if_j_per_m3 = 1e7,
+                                 .gamma_per_s = 2.828e5},
+                   .extensions = {},
+                   .criterion = criterion};
+  set.toughness = with_strengths(set.toughness, strength_ratio(criterion));
+  return set;
 }
 
 std::string parameter_fault(const ParameterSet& parameters) {

@@ -121,10 +121,10 @@ ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& rang
   return inside;
 }
 
-ParameterRanges parse_ranges(std::string_view text, const std::string& source) {
+ParameterRanges parse_ranges(std::string_view text, const std::string& source, const ParameterRanges& otherwise) {
   constexpr double kLargestPoissonRatio = 0.5;
   const NamedTable file(source, text, {"tester", "fitted_to", "parameter", "minimum", "maximum"});
-  ParameterRanges ranges = thesis_ranges();
+  ParameterRanges ranges = otherwise;
   std::set<const ParameterRange*> given;
   for (std::size_t row = 0; row < file.size(); ++row) {
     ParameterRange& range = range_of(ranges, file, row);
@@ -143,7 +143,9 @@ ParameterRanges parse_ranges(std::string_view text, const std::string& source) {
   return ranges;
 }
 
-ParameterRanges read_ranges(const std::filesystem::path& path) { return parse_ranges(read_file(path), path.string()); }
+ParameterRanges read_ranges(const std::filesystem::path& path, const ParameterRanges& otherwise) {
+  return parse_ranges(read_file(path), path.string(), otherwise);
+}
 
 std::string to_csv(const ParameterRanges& ranges) {
   std::string text = "tester,fitted_to,parameter,minimum,maximum\n";

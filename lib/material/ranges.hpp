@@ -47,9 +47,10 @@ ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& rang
 
 /// Ranges for other inks, CSV: `tester` (modulus, toughness), `fitted_to` (base, microstructures), `parameter`,
 /// `minimum`, `maximum` (SI units, above 0, minimum below maximum, nu at most 0.5), each range once; those that are
-/// absent are the thesis'. Throws InputError naming file, line, column.
-ParameterRanges read_ranges(const std::filesystem::path& path);
-ParameterRanges parse_ranges(std::string_view text, const std::string& source);
+/// absent are those of `otherwise`. Throws InputError naming file, line, column.
+ParameterRanges read_ranges(const std::filesystem::path& path, const ParameterRanges& otherwise = thesis_ranges());
+ParameterRanges parse_ranges(std::string_view text, const std::string& source,
+                             const ParameterRanges& otherwise = thesis_ranges());
 /// All ranges as such a table; parse_ranges() reads them back to the bit.
 std::string to_csv(const ParameterRanges& ranges);
 

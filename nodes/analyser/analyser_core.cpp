@@ -298,7 +298,7 @@ runtime::Status AnalyserCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  const material::ParameterRanges ranges = game::ranges_of(scenario);
+  const material::ParameterRanges ranges = game::starting_model(scenario).ranges;
   const diagnosis::ModulusFloor floor =
       scenario.discretisation_floor_file.empty()
           ? diagnosis::ModulusFloor{}

@@ -196,10 +196,9 @@ int calibrate(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
-  const material::ParameterRanges ranges = ranges_from_option(options.ranges);
-  settings.calibration.ranges = ranges;
-  settings.calibration.start =
-      parameters_from_option(options.start, material::brought_inside(material::default_parameters(), ranges), ranges);
+  const material::StartingModel model = starting_model_from_options(options.start, options.ranges);
+  settings.calibration.ranges = model.ranges;
+  settings.calibration.start = model.parameters;
   settings.calibration.toughness_budget = options.budget;
   settings.calibration.modulus_budget = options.modulus_budget;
   settings.calibration.seed = options.seed;
@@ -235,7 +234,7 @@ int calibrate(const Options& options) {
   write_file_atomically(options.out, material::to_toml(result.calibrated.parameters));
   nlohmann::ordered_json document = to_json(result);
   document["rejected"] = rejected_json(set.rejected);
-  options.json ? print_json(document) : print_table(result, ranges);
+  options.json ? print_json(document) : print_table(result, model.ranges);
   return 0;
 }
 

@@ -104,9 +104,9 @@ int diagnose_table(const Options& options) {
 
 diagnosis::DiagnosisSettings settings_from(const Options& options) {
   diagnosis::DiagnosisSettings settings;
-  settings.ranges = ranges_from_option(options.ranges);
-  settings.start = parameters_from_option(
-      options.parameters, material::brought_inside(material::default_parameters(), settings.ranges), settings.ranges);
+  const material::StartingModel model = starting_model_from_options(options.parameters, options.ranges);
+  settings.ranges = model.ranges;
+  settings.start = model.parameters;
   if (!settings.start.extensions.empty())
     warn(fmt::format("{}: its extensions are not used: a diagnosis begins with the base model", options.parameters));
   settings.fidelity = fidelity_from_option(options.fidelity);

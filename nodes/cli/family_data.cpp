@@ -4,6 +4,8 @@
 
 #include "game/standings.hpp"
 #include "laboratory_view.hpp"
+#include "material/criterion_strengths.hpp"
+#include "material/starting_model.hpp"
 #include "output.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
@@ -15,10 +17,10 @@ namespace {
 FamilyData data_of_set(const FamilyOptions& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
-  const material::ParameterRanges ranges = ranges_from_option(options.ranges);
+  const material::StartingModel model = material::starting_model(options.params, options.ranges);
   return {.measured = game::patterns_with_both(set.specimens),
-          .parameters = material::brought_inside(material::default_parameters(), ranges),
-          .ranges = ranges,
+          .parameters = model.parameters,
+          .ranges = model.ranges,
           .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity),
           .staged = {}};
 }
@@ -45,10 +47,13 @@ FamilyData data_of_run(const FamilyOptions& options) {
   const RunAccess run = open_run(options.run);
   const LaboratoryView view = view_laboratory(run);
   if (!view.model) throw InputError::format("{}: no model has been adopted yet", run.folder.string());
+  material::ParameterRanges ranges = material::ranges_for(view.model->criterion);
+  const std::string& file = options.ranges.empty() ? run.scenario.ranges_file : options.ranges;
+  if (!file.empty()) ranges = material::read_ranges(file, ranges);
   const bool same_model = options.params.empty() && options.fidelity.empty();
   return {.measured = game::patterns_with_both(view.facts.book.specimens()),
           .parameters = *view.model,
-          .ranges = ranges_from_option(options.ranges.empty() ? run.scenario.ranges_file : options.ranges),
+          .ranges = ranges,
           .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
           .staged = same_model ? staged_families(run) : std::vector<StagedFamily>{}};
 }

@@ -111,8 +111,10 @@ void warn_about_units(const std::string& file, const material::ParameterRanges& 
   }
 }
 
-material::ParameterRanges ranges_from_option(const std::string& file) {
-  return file.empty() ? material::thesis_ranges() : material::read_ranges(file);
+material::StartingModel starting_model_from_options(const std::string& parameters, const std::string& ranges) {
+  material::StartingModel model = material::starting_model(parameters, ranges);
+  if (!parameters.empty()) warn_about_units(parameters, model.parameters, model.ranges);
+  return model;
 }
 
 tester::Fidelity fidelity_from_option(const std::string& name) {

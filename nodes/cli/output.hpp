@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "material/ranges.hpp"
+#include "material/starting_model.hpp"
 #include "measurement/read_set.hpp"
 
 namespace nacre::cli {
@@ -52,8 +53,8 @@ void warn_about_units(const std::string& file, const material::ParameterSet& set
                       const material::ParameterRanges& ranges);
 void warn_about_units(const std::string& file, const material::ParameterRanges& ranges);
 
-/// The ranges in the file given, those of the thesis where none is given. Throws InputError.
-material::ParameterRanges ranges_from_option(const std::string& file);
+/// material::starting_model() of the files given (empty: none), with the warnings of parameters_from_option().
+material::StartingModel starting_model_from_options(const std::string& parameters, const std::string& ranges);
 
 /// A fidelity as typed; throws InputError with the choices.
 tester::Fidelity fidelity_from_option(const std::string& name);

@@ -163,12 +163,14 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
 
 /// The parameter file's, or what the options say instead.
 material::ParameterSet model_of(const Options& options) {
-  material::ParameterSet model = parameters_from_option(options.params, material::default_parameters());
+  material::FailureCriterion criterion;
+  if (!options.criterion.empty()) criterion.kind = *material::criterion_from_string(options.criterion);
+  material::ParameterSet model = parameters_from_option(options.params, material::default_parameters(criterion));
+  if (!options.criterion.empty()) model.criterion.kind = criterion.kind;
   if (options.strength_cv) model.strength_cv = *options.strength_cv;
   if (!material::is_strength_cv(model.strength_cv))
     throw InputError::format("--strength-cv {}: expected 0 or {} to {}", model.strength_cv,
                              material::kSmallestStrengthCv, material::kLargestStrengthCv);
-  if (!options.criterion.empty()) model.criterion.kind = *material::criterion_from_string(options.criterion);
   return model;
 }
 

@@ -31,7 +31,8 @@ std::vector<std::string> beside_replicates(std::vector<measurement::SpecimenReco
 std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView& view,
                                       std::span<const measurement::SpecimenRecord> specimens) {
   const game::LaboratoryFacts& facts = view.facts;
-  game::UnitDoubts units(view.model ? *view.model : game::starting_model(run.scenario), run.scenario.fidelity);
+  game::UnitDoubts units(view.model ? *view.model : game::starting_model(run.scenario).parameters,
+                         run.scenario.fidelity);
   std::vector<std::string> doubts;
   for (const measurement::SpecimenRecord& specimen : specimens) {
     for (const auto& doubt : {game::order_mismatch(specimen, facts.orders), units.about(specimen)})

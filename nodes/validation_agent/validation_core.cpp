@@ -248,8 +248,9 @@ std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   if (!scenario.base_materials_file.empty())
     start.base_materials = game::read_base_materials(scenario.base_materials_file);
   if (!scenario.benchmark_file.empty()) start.benchmark = game::read_benchmark_line(scenario.benchmark_file);
-  start.ranges = game::ranges_of(scenario);
-  start.model = game::starting_model(scenario);
+  material::StartingModel model = game::starting_model(scenario);
+  start.ranges = model.ranges;
+  start.model = std::move(model.parameters);
   start.floor = scenario.discretisation_floor_file.empty()
                     ? sysid::DiscretisationFloor::none()
                     : sysid::read_discretisation_floor(scenario.discretisation_floor_file, scenario.fidelity);

@@ -124,7 +124,9 @@ TEST(LaboratoryFile, RefusalsNameFileLineKeyAndWhatWasExpected) {
   EXPECT_THAT(refusal("[noise]\nmodulus = \"much\"\n"), HasSubstr(":2:11: noise.modulus = 'much': expected a number"));
   EXPECT_THAT(refusal("[modulus]\nnu_tb = 0.7\n"),
               HasSubstr(":2:9: modulus.nu_tb = 0.7: expected a number from 0 to 0.5"));
-  EXPECT_THAT(refusal("[toughness]\ne_xx = 1\n"), HasSubstr(":2:8: toughness.e_xx = 1: expected one of e_tb_pa"));
+  EXPECT_THAT(
+      refusal("[toughness]\ne_xx = 1\n"),
+      HasSubstr(":2:8: toughness.e_xx = 1: expected one of strength_cv, criterion, radius_m, softening, e_tb_pa"));
   EXPECT_THAT(refusal("[[effect]]\nname = \"magic\"\nvalue = 1\n"),
               HasSubstr(":2:8: effect.name = 'magic': expected one of draw, machine_comp"));
   EXPECT_THAT(refusal("[[effect]]\nvalue = 1\n"), HasSubstr("effect.name: expected one of"));
