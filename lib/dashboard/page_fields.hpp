@@ -24,6 +24,7 @@ constexpr std::string_view page_name(const wire::RoundSummary*) { return "Summar
 constexpr std::string_view page_name(const wire::ProposedDesign*) { return "Proposed"; }
 constexpr std::string_view page_name(const wire::DiagnosedGain*) { return "Gain"; }
 constexpr std::string_view page_name(const game::DesignState*) { return "DesignState"; }
+constexpr std::string_view page_name(const wire::HiddenCause*) { return "HiddenCause"; }
 
 /// The interface of a struct.
 template <class T>

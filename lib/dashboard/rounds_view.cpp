@@ -26,6 +26,7 @@ RoundsRow rounds_row(const run::RunRecord& run, const std::optional<LiveSearch::
     row.rounds.push_back({.number = search->round, .gamut_count = search->patterns, .measured_front = {}});
   for (const auto& pattern : run::measured_patterns(run, run::newest_round(run).value_or(0)))
     row.measured.push_back({pattern});
+  if (run.revealed) row.revealed = RevealedRow{&*run.revealed};
   return row;
 }
 

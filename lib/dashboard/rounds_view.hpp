@@ -53,16 +53,31 @@ struct MeasuredRow {
   }
 };
 
+/// What a virtual laboratory had hidden.
+struct RevealedRow {
+  static constexpr std::string_view kPageName = "Revealed";
+  const wire::Reveal* reveal = &nothing<wire::Reveal>();
+
+  static void fields(auto& field, auto& m) {
+    field("causes", m.reveal->causes);
+    field("modulus_noise", m.reveal->modulus_noise);
+    field("toughness_noise", m.reveal->toughness_noise);
+    field("parameters", run::named_parameters(m.reveal->parameters));
+  }
+};
+
 /// Per round: summary, errors, model, size of the gamut, proposals, measured front; and every measured pattern. Refers
 /// to the record that it was made of. A round that is being searched has the size that its gamut has come to.
 struct RoundsRow {
   static constexpr std::string_view kPageName = "Rounds";
   std::vector<RoundRow> rounds;
   std::vector<MeasuredRow> measured;
+  std::optional<RevealedRow> revealed;  ///< after the last round of a virtual laboratory
 
   static void fields(auto& field, auto& m) {
     field("rounds", m.rounds);
     field("measured", m.measured);
+    field("revealed", m.revealed);
   }
 };
 RoundsRow rounds_row(const run::RunRecord& run, const std::optional<LiveSearch::Progress>& search);

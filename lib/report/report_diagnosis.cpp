@@ -1,5 +1,7 @@
 #include "report/report_diagnosis.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "report/report_text.hpp"
@@ -49,6 +51,26 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
   return table;
 }
 
+/// Beside the answers of the rounds.
+Exhibit revealed_part(const wire::Reveal& reveal) {
+  Exhibit part{.id = "", .heading = "What the laboratory had hidden"};
+  if (reveal.causes.empty())
+    part.notes.push_back("Nothing: its measurements differ from the base model by noise alone.");
+  ExhibitTable table{.name = "",
+                     .columns = {{"", "hidden cause"}, {"", "value"}, {"", "meaning"}, {"", "known to the diagnosis"}}};
+  table.look = "words";
+  for (const wire::HiddenCause& cause : reveal.causes) {
+    std::string values;
+    for (const double value : cause.values) values += (values.empty() ? "" : ", ") + quantity(value);
+    table.add({shown_cell(effect_name(cause.name)), shown_cell(values), text_cell(cause.meaning),
+               text_cell(cause.in_library ? "yes" : "no: the honest answer is that something is unexplained")});
+  }
+  if (!reveal.causes.empty()) part.tables.push_back(std::move(table));
+  part.fine_print.push_back(fmt::format("Noise between its replicates: E {}, T {}.", percent(reveal.modulus_noise),
+                                        percent(reveal.toughness_noise)));
+  return part;
+}
+
 }  // namespace
 
 std::string verdict_in_words(const std::string& verdict) {
@@ -69,6 +91,7 @@ std::string status_in_words(std::string_view status) {
 
 Exhibit diagnosis_exhibit(const run::RunRecord& run) {
   Exhibit exhibit{.id = "diagnosis", .heading = "Diagnosis: what the simulation gets wrong, and why"};
+  if (run.revealed) exhibit.parts.push_back(revealed_part(*run.revealed));
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
     const wire::Diagnosis& d = *round->second.diagnosis;
@@ -81,7 +104,9 @@ Exhibit diagnosis_exhibit(const run::RunRecord& run) {
     part.tables = {effect_table(run::named_effects(d)), candidate_table(d.candidates)};
     exhibit.parts.push_back(std::move(part));
   }
-  if (exhibit.parts.empty())
+  const bool is_answered =
+      std::ranges::any_of(run.rounds, [](const auto& each) { return each.second.diagnosis.has_value(); });
+  if (!is_answered)
     exhibit.notes.push_back(run.is_diagnosed ? awaited("the first diagnosis, which follows the calibration of round 1")
                                              : "The scenario turns the diagnosis off.");
   return exhibit;

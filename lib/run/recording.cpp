@@ -35,6 +35,7 @@ void Recording::take(std::int64_t id, std::string_view channel, const std::strin
   if (channel == "FRACTURE") read_as<wire::Fracture>(payload, take_value);
   if (channel == "FAMILY") read_as<wire::CalibratedFamily>(payload, take_value);
   if (channel == "REVIEW") take_review(payload);
+  if (channel == "REVEAL") read_as<wire::Reveal>(payload, [&](wire::Reveal r) { revealed_ = std::move(r); });
   if (channel == "PARAMETERS") {
     read_as<wire::AdoptedModel>(payload, [&](wire::AdoptedModel model) { rounds_[model.round].model = model; });
   } else if (channel == "PROPOSAL") {
@@ -104,6 +105,7 @@ void Recording::take(const wire::CalibratedFamily& family) {
 RunRecord Recording::record() const {
   RunRecord record;
   record.rounds = rounds_;
+  record.revealed = revealed_;
   for (auto& [number, round] : record.rounds) round.gamut_count = count_of(gamuts_, number);
   for (const auto& [number, family] : families_) {
     if (family.stated.name.empty()) continue;  // its cracks come before its FAMILY

@@ -45,6 +45,7 @@ class Recording {
   std::map<std::string, wire::Review> reviews_;  ///< that count, by specimen
   Chunks gamuts_, variants_;
   ClosedRounds closed_;
+  std::optional<wire::Reveal> revealed_;
 };
 
 }  // namespace nacre::run

@@ -50,6 +50,7 @@ struct RunRecord {
   std::map<int, RoundRecord> rounds;
   std::vector<FamilyRecord> families;       ///< by number; empty where no stage was played
   std::vector<MeasuredSpecimen> specimens;  ///< by name
+  std::optional<wire::Reveal> revealed;     ///< by a virtual laboratory, after the last round
   /// False where the scenario turns diagnosis off: none is to be awaited.
   bool is_diagnosed = true;
 };

@@ -46,6 +46,7 @@ std::vector<Channel> make_channels() {
       channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
       channel<Ack>("ACK", everyone, false),
       channel<NodeStatus>("STATUS", everyone, false),
+      channel<Reveal>("REVEAL", {"analyser"}),
   };
 }
 

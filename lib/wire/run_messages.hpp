@@ -1,5 +1,6 @@
 #pragma once
-// Messages that run a game rather than play it: RUN, what people decide, acknowledgements and the nodes' status.
+// Messages that run a game rather than play it: RUN, what people decide, what a laboratory reveals at the end,
+// acknowledgements and the nodes' status.
 
 #include <cstdint>
 #include <string>
@@ -8,6 +9,7 @@
 #include "nacre/ack_t.hpp"
 #include "nacre/approval_t.hpp"
 #include "nacre/node_status_t.hpp"
+#include "nacre/reveal_t.hpp"
 #include "nacre/review_t.hpp"
 #include "nacre/run_t.hpp"
 #include "pattern/design.hpp"
@@ -66,6 +68,40 @@ struct Review {
     field("valid", m.valid);
     field("by", m.by);
     field("why", m.why);
+  }
+};
+
+/// A cause that a virtual laboratory hid in its measurements.
+struct HiddenCause {
+  std::string name;
+  std::string meaning;     ///< of its first value, in words, with its unit
+  bool in_library = true;  ///< false: the diagnosis has no name for it
+  std::vector<double> values;
+  bool operator==(const HiddenCause&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("name", m.name, kName);
+    field("meaning", m.meaning);
+    field("in_library", m.in_library);
+    field.count("n_values", m.values, Range{1, 2});
+    field("values", m.values);
+  }
+};
+
+/// REVEAL: what a virtual laboratory had hidden, after the last round.
+struct Reveal {
+  using Wire = reveal_t;
+  material::ParameterSet parameters;                  ///< of its materials, without the causes
+  double modulus_noise = 0.0, toughness_noise = 0.0;  ///< relative standard deviations between replicates
+  std::vector<HiddenCause> causes;
+  bool operator==(const Reveal&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("parameters", m.parameters);
+    field("modulus_noise", m.modulus_noise, Range{0, 1});
+    field("toughness_noise", m.toughness_noise, Range{0, 1});
+    field.count("n_causes", m.causes, Range{0, 10});
+    field("causes", m.causes);
   }
 };
 

@@ -19,8 +19,8 @@ namespace nacre::analyser {
 namespace {
 
 bool is_kept(const std::string& channel) {
-  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT",     "PROPOSAL", "MEASUREMENT", "REVIEW",
-                                              "ROUND",      "SIMULATED", "FRACTURE", "FAMILY",      "FAMILY_GAMUT"};
+  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT",    "PROPOSAL", "MEASUREMENT",  "REVIEW", "ROUND",
+                                              "SIMULATED",  "FRACTURE", "FAMILY",   "FAMILY_GAMUT", "REVEAL"};
   return kKept.contains(channel);
 }
 

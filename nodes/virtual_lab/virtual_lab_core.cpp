@@ -5,6 +5,7 @@
 #include "base/hash.hpp"
 #include "base/random.hpp"
 #include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory_file.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
@@ -17,6 +18,7 @@ using runtime::Outputs;
 constexpr const char* kOrderChannel = "TEST_ORDER";
 constexpr const char* kRoundChannel = "ROUND";
 constexpr const char* kMeasurementChannel = "MEASUREMENT";
+constexpr const char* kRevealChannel = "REVEAL";
 constexpr const char* kWorkKind = "measure";
 constexpr int kPrintPositions = 1000;
 
@@ -34,6 +36,28 @@ int print_position(std::uint64_t seed, const std::string& batch, const std::stri
   return 1 + stream.index(kPrintPositions);
 }
 
+wire::Reveal revealed(const Truth& truth) {
+  wire::Reveal reveal{.parameters = {.modulus = truth.modulus,
+                                     .toughness = truth.toughness,
+                                     .extensions = {},
+                                     .criterion = truth.criterion,
+                                     .strength_cv = truth.strength_cv},
+                      .modulus_noise = truth.noise.modulus,
+                      .toughness_noise = truth.noise.toughness,
+                      .causes = {}};
+  for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
+    const double value = truth.effects.*kind.value;
+    if (value == 0.0) continue;
+    wire::HiddenCause cause{.name = std::string(kind.name),
+                            .meaning = fmt::format("{}, {}", kind.meaning, kind.unit),
+                            .in_library = kind.in_library,
+                            .values = {value}};
+    if (kind.second.value != nullptr) cause.values.push_back(truth.effects.*kind.second.value);
+    reveal.causes.push_back(std::move(cause));
+  }
+  return reveal;
+}
+
 }  // namespace
 
 Outputs VirtualLabCore::step(const runtime::Input& input) {
@@ -42,6 +66,8 @@ Outputs VirtualLabCore::step(const runtime::Input& input) {
     if (message->channel == kOrderChannel) accept(message->payload, outputs);
     if (message->channel == kRoundChannel) {
       const auto round = wire::read<wire::RoundSummary>(message->payload);
+      if (round && round->last && !game_over_)
+        outputs.messages.push_back({.channel = kRevealChannel, .payload = wire::write(revealed(truth_))});
       game_over_ = game_over_ || (round && round->last);
     }
   } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {

@@ -21,7 +21,7 @@ using laboratory::Truth;
 /// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet;
 /// MEASUREMENT out, one per specimen, when the simulation is done. What is measured depends on truth and order alone,
 /// never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
-/// with a warning.
+/// with a warning. After the last round a REVEAL tells what was hidden.
 class VirtualLabCore : public runtime::NodeCore {
  public:
   explicit VirtualLabCore(Truth truth) : truth_(std::move(truth)) {}

@@ -2,7 +2,7 @@
 
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import type { CandidateEffect, Diagnosis, Effect, Experiment, Rounds } from "./api";
+import type { CandidateEffect, Diagnosis, Effect, Experiment, Revealed, Rounds } from "./api";
 import { figure, percent, words } from "./numbers";
 import { Name, Problem, Table, Unit } from "./parts";
 import { useReading } from "./reading";
@@ -245,6 +245,23 @@ function Candidates({ diagnosis }: { diagnosis: Diagnosis }) {
   );
 }
 
+/** What a virtual laboratory tells after the last round: beside it the diagnosis is read. */
+function Hidden({ revealed }: { revealed: Revealed }) {
+  return (
+    <section class="panel">
+      <p class="eyebrow">what the laboratory had hidden</p>
+      {revealed.causes.length === 0 && <p>Nothing: its measurements differ from the base model by noise alone.</p>}
+      {revealed.causes.map((cause) => (
+        <p key={cause.name}>
+          <strong>{words(cause.name)}</strong> {cause.values.map(figure).join(", ")} ({cause.meaning})
+          {!cause.in_library &&
+            ": the diagnosis has no name for it, the honest answer is that something is unexplained"}
+        </p>
+      ))}
+    </section>
+  );
+}
+
 /** The diagnosis of one round; while another round is read, nothing of the one before. */
 function DiagnosisOf({ round, rounds, tabs }: { round: number; rounds: Rounds; tabs: ComponentChildren }) {
   const { value: diagnosis, problem } = useReading<Diagnosis>("/api/diagnosis", { round }, rounds);
@@ -285,5 +302,10 @@ export function DiagnosisView({ rounds, isOn }: { rounds: Rounds; isOn: boolean 
       ))}
     </div>
   );
-  return <DiagnosisOf round={round} rounds={rounds} tabs={tabs} />;
+  return (
+    <>
+      {rounds.revealed && <Hidden revealed={rounds.revealed} />}
+      <DiagnosisOf round={round} rounds={rounds} tabs={tabs} />
+    </>
+  );
 }

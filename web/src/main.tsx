@@ -61,7 +61,7 @@ function useTheme(): ["light" | "dark", () => void] {
 function Page() {
   const [info, setInfo] = useState<RunInfo | null>(null);
   const [live, setLive] = useState<Live | null>(null);
-  const [rounds, setRounds] = useState<Rounds>({ rounds: [], measured: [] });
+  const [rounds, setRounds] = useState<Rounds>({ rounds: [], measured: [], revealed: null });
   const [data, setData] = useState<string | null>(null);
   const [lost, setLost] = useState("");
   const view = useView();

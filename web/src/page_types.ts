@@ -107,9 +107,24 @@ export interface Measured {
   toughness_count: number;
 }
 
+export interface HiddenCause {
+  name: string;
+  meaning: string;
+  in_library: boolean;
+  values: number[];
+}
+
+export interface Revealed {
+  causes: HiddenCause[];
+  modulus_noise: number;
+  toughness_noise: number;
+  parameters: Record<string, number>;
+}
+
 export interface Rounds {
   rounds: Round[];
   measured: Measured[];
+  revealed: Revealed | null;
 }
 
 export interface ProposedInRound {

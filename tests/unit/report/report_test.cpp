@@ -100,6 +100,18 @@ TEST(Report, HeadingsOfTablesAreWordsWithAHint) {
                     HasSubstr("<strong>possible cause</strong>"), HasSubstr("not visible in these data")));
 }
 
+TEST(Report, WhatTheLaboratoryHadHiddenStandsBesideTheAnswers) {
+  run::RunRecord run = sample::run();
+  EXPECT_THAT(section_of(render_report(run, "r"), "diagnosis"), Not(HasSubstr("had hidden")));
+  wire::Reveal& reveal = run.revealed.emplace();
+  EXPECT_THAT(section_of(render_report(run, "r"), "diagnosis"), HasSubstr("noise alone"));
+  reveal.causes.push_back({"corner_debonding", "strength lost at corners, 1", false, {0.88}});
+  reveal.causes.push_back({"rate_dependence", "overstress", true, {0.5, 8.0}});
+  const std::string section = section_of(render_report(run, "r"), "diagnosis");
+  EXPECT_THAT(section, AllOf(HasSubstr("corner debonding"), HasSubstr("0.88"), HasSubstr("0.500, 8.00"),
+                             HasSubstr("the honest answer is that something is unexplained")));
+}
+
 TEST(Report, SoftAndRigidHaveALegend) {
   const std::string page = render_report(sample::run(), "a-run");
   for (const std::string& part : {head_of(page), section_of(page, "proposals")})

@@ -76,6 +76,30 @@ TEST(VirtualLabCore, EverySpecimenOfAnOrderIsReportedWithItsOrderAndBatch) {
   EXPECT_EQ(names.size(), 3u);
 }
 
+TEST(VirtualLabCore, TellsWhatItHadHiddenAfterTheLastRoundOnce) {
+  Truth hiding = truth();
+  hiding.effects = {};
+  hiding.effects.corner_debonding = 0.88;
+  hiding.effects.rate_overstress = 0.5, hiding.effects.rate_relaxation_s = 8.0;
+  VirtualLabCore core(hiding);
+  wire::RoundSummary round;
+  round.round = 1;
+  EXPECT_TRUE(core.step(Message{"ROUND", wire::write(round)}).messages.empty());
+  round.last = true;
+  const Outputs outputs = core.step(Message{"ROUND", wire::write(round)});
+  ASSERT_EQ(outputs.messages.size(), 1u);
+  EXPECT_EQ(outputs.messages[0].channel, "REVEAL");
+  const auto reveal = wire::read<wire::Reveal>(outputs.messages[0].payload);
+  ASSERT_TRUE(reveal) << reveal.error().message;
+  EXPECT_EQ(reveal->parameters.toughness, hiding.toughness);
+  ASSERT_EQ(reveal->causes.size(), 2u);
+  EXPECT_EQ(reveal->causes[0].name, "corner_debonding");
+  EXPECT_FALSE(reveal->causes[0].in_library);
+  EXPECT_EQ(reveal->causes[0].values, std::vector<double>{0.88});
+  EXPECT_EQ(reveal->causes[1].values, (std::vector<double>{0.5, 8.0}));
+  EXPECT_TRUE(core.step(Message{"ROUND", wire::write(round)}).messages.empty());
+}
+
 TEST(VirtualLabCore, SpecimensDoNotDependOnTheOrderInWhichAnythingArrives) {
   auto orders = three_orders();
   const auto expected = play(orders, false);

@@ -112,6 +112,7 @@ TEST(Fields, AreThoseOfTheLcmFileInItsOrder) {
   expect_table_of_lcm_file(samples::order());
   expect_table_of_lcm_file(samples::measurement());
   expect_table_of_lcm_file(samples::review());
+  expect_table_of_lcm_file(samples::reveal());
   expect_table_of_lcm_file(samples::diagnose());
   expect_table_of_lcm_file(samples::diagnosis());
   expect_table_of_lcm_file(samples::round());

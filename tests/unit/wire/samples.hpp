@@ -163,6 +163,10 @@ inline RunStart run() { return {1, "0123456789abcdef0123456789abcdef", 1}; }
 inline DiagnoseRequest diagnose() { return {1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}}; }
 inline Approval approval() { return {1, pattern::Pattern(0x577fffe9fffdef), true, "someone", "a reason"}; }
 inline Review review() { return {"S-001", 2, false, "someone", "broke at the grip"}; }
+inline Reveal reveal() {
+  return {
+      material::default_parameters(), 0.015, 0.08, {{"corner_debonding", "strength lost at corners", false, {0.88}}}};
+}
 inline Ack ack() { return {7, {"0123456789abcdef0123456789abcdef", "ffffffffffffffffffffffffffffffff"}}; }
 inline NodeStatus status() {
   NodeStatus status;
@@ -190,7 +194,8 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"FAMILY", write(family())},
           {"FAMILY_GAMUT", write(family_gamut())},
           {"ACK", write(ack())},
-          {"STATUS", write(status())}};
+          {"STATUS", write(status())},
+          {"REVEAL", write(reveal())}};
 }
 
 }  // namespace nacre::wire::samples
