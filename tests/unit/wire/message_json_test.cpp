@@ -43,6 +43,28 @@ TEST(MessageJson, AMemberOfAnotherTypeOrOutOfRangeContradictsTheSchema) {
   EXPECT_THAT(schema_fault(channel.schema(), shortened), HasSubstr("fidelity"));
 }
 
+/// Members whose type a viewer does not take: it knows one type per member, and no arrays in arrays.
+std::vector<std::string> unusual_members(const Json& schema, const std::string& place) {
+  std::vector<std::string> found;
+  for (const auto& [name, member] : schema["properties"].items()) {
+    const bool is_array = member["type"] == "array";
+    const Json& one = is_array ? member["items"] : member;
+    if (!one["type"].is_string() || one["type"] == "array" || one["type"] == "null") found.push_back(place + name);
+    if (one["type"] != "object") continue;
+    for (std::string& inner : unusual_members(one, place + name + ".")) found.push_back(std::move(inner));
+  }
+  return found;
+}
+
+TEST(MessageJson, SchemasKeepToWhatViewersTake) {
+  for (const Channel& channel : channels()) {
+    const Json schema = channel.schema();
+    EXPECT_EQ(schema["type"], "object");
+    EXPECT_GT(schema["properties"].size(), 1U) << channel.name;
+    EXPECT_THAT(unusual_members(schema, ""), IsEmpty()) << channel.name;
+  }
+}
+
 TEST(MessageJson, ValuesAreThoseOfTheMessage) {
   const Json proposal = *find_channel("PROPOSAL")->to_json(write(samples::proposal()));
   EXPECT_EQ(proposal["designs"][0]["design"], samples::proposal().designs[0].design.name());
