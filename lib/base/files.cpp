@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -101,28 +102,44 @@ void sync_folder(const std::filesystem::path& folder) {
   if (entry.fd >= 0) ::fsync(entry.fd);
 }
 
-void write_file_atomically(const std::filesystem::path& link_or_file, std::string_view bytes) {
-  const std::filesystem::path path = behind_links(link_or_file);
-  const std::filesystem::path aside = name_aside(path);
-  const auto give_up = [&](int reason) {
-    ::unlink(aside.c_str());
-    refuse_write(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)), reason);
-  };
-  {
-    const FileDescriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
-    if (file.fd < 0) give_up(errno);
-    struct stat replaced {};
-    if (::stat(path.c_str(), &replaced) == 0) ::fchmod(file.fd, replaced.st_mode & 07777);  // who may read it stays
-    std::size_t written = 0;
-    while (written < bytes.size()) {
-      const ssize_t count = ::write(file.fd, bytes.data() + written, bytes.size() - written);
-      if (count < 0) give_up(errno);
-      written += static_cast<std::size_t>(count);
-    }
-    if (::fsync(file.fd) != 0) give_up(errno);
+FileAside::FileAside(const std::filesystem::path& link_or_file)
+    : path_(behind_links(link_or_file)), aside_(name_aside(path_)) {
+  fd_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd_ < 0) give_up(errno);
+  struct stat replaced {};
+  if (::stat(path_.c_str(), &replaced) == 0) ::fchmod(fd_, replaced.st_mode & 07777);  // who may read it stays
+}
+
+FileAside::~FileAside() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(aside_.c_str());
+}
+
+void FileAside::give_up(int reason) const {
+  ::unlink(aside_.c_str());
+  refuse_write(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(reason)), reason);
+}
+
+void FileAside::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
+    if (count < 0) give_up(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
   }
-  if (::rename(aside.c_str(), path.c_str()) != 0) give_up(errno);
-  sync_folder(path.has_parent_path() ? path.parent_path() : ".");
+}
+
+void FileAside::keep() {
+  if (::fsync(fd_) != 0) give_up(errno);
+  ::close(std::exchange(fd_, -1));
+  if (::rename(aside_.c_str(), path_.c_str()) != 0) give_up(errno);
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : ".");
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  FileAside file(path);
+  file.append(bytes);
+  file.keep();
 }
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wire/convert.hpp"
+#include "wire/message_json.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::wire {
@@ -20,7 +21,15 @@ Result<void> validate(std::string_view payload) {
 template <class Message>
 Channel channel(std::string_view name, Receivers receivers, bool reliable = true, bool synced = false) {
   using Wire = typename Message::Wire;
-  return {name, Wire::getTypeName(), Wire::getHash(), std::move(receivers), reliable, synced, validate<Message>};
+  return {.name = name,
+          .type = Wire::getTypeName(),
+          .fingerprint = Wire::getHash(),
+          .receivers = std::move(receivers),
+          .reliable = reliable,
+          .synced = synced,
+          .validate = validate<Message>,
+          .schema = schema_of_message<Message>,
+          .to_json = json_of_message<Message>};
 }
 
 std::vector<Channel> make_channels() {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "base/result.hpp"
 
 namespace nacre::wire {
@@ -27,6 +29,11 @@ struct Channel {
   /// Everything that can be wrong with a payload: structure, finite numbers, enumerations, physical ranges, design
   /// names.
   Result<void> (*validate)(std::string_view payload) = nullptr;
+  /// The JSON Schema of to_json() with a member `header` (message_json.hpp).
+  nlohmann::ordered_json (*schema)() = nullptr;
+  /// A message's fields by their table, designs as their names; what is absent has no member. Refuses what validate()
+  /// refuses.
+  Result<nlohmann::ordered_json> (*to_json)(std::string_view payload) = nullptr;
 };
 
 /// All channels, in the order of the table.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -65,12 +66,43 @@ class FieldJson {
   void count(auto&&...) {}
   void first(auto&&...) {}
   void single(std::string_view name, const auto& list, const auto&...) { (*this)(name, list); }
+  /// An array per column.
+  template <class Element>
+  void columns(const std::vector<Element>& list, const auto& table) {
+    Column column{object_};
+    table(column, static_cast<const Element&>(Element{}));
+    for (const Element& element : list) {
+      column.is_beginning = false;
+      table(column, element);
+    }
+  }
+  /// The number that stands in the message.
+  void bits(std::string_view name, const auto&... flags) {
+    int bit = 0, number = 0;
+    ((number |= (flags ? 1 : 0) << bit++), ...);
+    object_[std::string(name)] = number;
+  }
   void maybe(std::string_view, std::string_view name, const auto& value, const auto&...) { (*this)(name, value); }
   void or_zero(std::string_view name, const auto& value, const auto&...) { (*this)(name, value); }
   void part(std::string_view, std::string_view name, const auto& part) { (*this)(name, part); }
   void failure(std::string_view, std::string_view name, const std::string& reason) { (*this)(name, reason); }
 
  private:
+  /// Begins arrays, then appends to them.
+  struct Column {
+    Json& object;
+    bool is_beginning = true;
+    void operator()(std::string_view name, const auto& value, const auto&...) {
+      Json& array = object[std::string(name)];
+      if (is_beginning) {
+        array = Json::array();
+      } else {
+        array.push_back(json_of(value));
+      }
+    }
+    void single(std::string_view name, const auto& value, const auto&...) { (*this)(name, value); }
+  };
+
   Json& object_;
 };
 

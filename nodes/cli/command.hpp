@@ -75,6 +75,7 @@ void add_record(CLI::App& app, Action& action);
 void add_dashboard(CLI::App& app, Action& action);
 void add_status(CLI::App& app, Action& action);
 void add_echo(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_inject(CLI::App& app, Action& action);
 void add_approve(CLI::App& app, Action& action);
 void add_review(CLI::App& app, Action& action);

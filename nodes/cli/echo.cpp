@@ -9,6 +9,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "forgiving_reader.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
 #include "runtime/interrupts.hpp"
@@ -96,42 +97,7 @@ std::optional<nlohmann::ordered_json> record_to_json(const runtime::LogRecord& r
   return line;
 }
 
-/// Reads a log and says where it is damaged: what stands behind that is read all the same.
-class ForgivingReader {
- public:
-  explicit ForgivingReader(const std::string& log) : log_(log), reader_(log) {}
-
-  std::optional<runtime::LogRecord> next() {
-    while (true) {
-      try {
-        auto record = reader_.next();
-        if (!record) warn_of_torn_tail();
-        return record;
-      } catch (const InputError& damage) {
-        warn(damage.what());
-        is_damaged_ = true;
-        reader_.resync();
-      }
-    }
-  }
-  bool is_damaged() const { return is_damaged_; }
-
- private:
-  void warn_of_torn_tail() const {
-    const runtime::LogEnd end = reader_.end();
-    if (end.torn_bytes == 0) return;
-    warn(fmt::format("{}: ends in a torn record, {} bytes from byte {}: it is being written, or was when that ended",
-                     log_, end.torn_bytes, end.sound_bytes));
-  }
-
-  const std::string& log_;
-  runtime::LogReader reader_;
-  bool is_damaged_ = false;
-};
-
 int echo_log(const Options& options) {
-  if (std::filesystem::is_directory(options.log))
-    throw InputError::format("{}: is a folder, expected a log: RUN/run.lcm, or a node's journal.lcm", options.log);
   ForgivingReader reader(options.log);
   for (std::int64_t printed = 0; printed < options.count;) {
     const auto record = reader.next();
@@ -141,7 +107,7 @@ int echo_log(const Options& options) {
     print_line(*line);
     ++printed;
   }
-  return reader.is_damaged() ? 1 : 0;
+  return reader.damaged_places() > 0 ? 1 : 0;
 }
 
 /// Says once that nobody is heard: nodes of a run that plays say STATUS twice a second.

@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
        {add_show,     add_simulate, add_film,      add_calibrate, add_explore, add_select,  add_measure,
         add_diagnose, add_families, add_fabricate, add_import,    add_launch,  add_record,  add_dashboard,
         add_status,   add_echo,     add_inject,    add_approve,   add_review,  add_designs, add_printed,
-        add_report,   add_replay,   add_doctor,    add_rebuild,   add_backup,  add_manual}) {
+        add_report,   add_replay,   add_export,    add_doctor,    add_rebuild, add_backup,  add_manual}) {
     add(app, action);
   }
   if (argc > 1) require_known_command(app, argv[1]);

@@ -491,6 +491,10 @@ TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
   expect_refused(run_nacre({"inject", path("set"), "--run", path("norun")}), {"norun"});
   expect_refused(run_nacre({"echo", "NOISE"}), {"NOISE", "MEASUREMENT"});
   expect_refused(run_nacre({"echo", "--log", folder_.string()}), {folder_.string(), "expected a log: RUN/run.lcm"});
+  expect_refused(run_nacre({"export", "--mcap", folder_.string()}), {folder_.string(), "holds no run.lcm; expected"});
+  expect_refused(run_nacre({"export", folder_.string()}), {"expected --mcap or --csv"});
+  expect_refused(run_nacre({"export", "--csv", "--mcap", folder_.string()}), {"expected --mcap or --csv"});
+  expect_refused(run_nacre({"export", "--mcap", file("noise.lcm", "noise")}), {"noise.lcm: no LCM log"});
 }
 
 /// Writes a log of three reviews; its bytes.
