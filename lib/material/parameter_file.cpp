@@ -103,8 +103,12 @@ std::string table_text(std::string_view name, std::span<const std::string_view> 
 }  // namespace
 
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start) {
-  const FilePlace place{path.string()};
-  const toml::table file = read_toml_file(path);
+  return parameters_from_toml(read_file(path), path.string(), start);
+}
+
+ParameterSet parameters_from_toml(std::string_view text, std::string_view source, const ParameterSet& start) {
+  const FilePlace place{std::string(source)};
+  const toml::table file = read_toml(text, source);
   ModulusVector modulus = to_vector(start.modulus);
   ToughnessVector toughness = to_vector(start.toughness);
   Extensions extensions = start.extensions;

@@ -3,15 +3,18 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "material/parameters.hpp"
 
 namespace nacre::material {
 
-/// Reads a parameter file; keys that are absent keep the value
-/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
-/// throw InputError naming file, line, key and what was expected.
+/// Reads a parameter file; keys that are absent keep the value of `start`. Unknown tables, keys, extension names and
+/// values that are not positive finite numbers (nu: 0 to 0.5) throw InputError naming file, line, key and what was
+/// expected.
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
+/// The same from text; `source` names the place in errors.
+ParameterSet parameters_from_toml(std::string_view text, std::string_view source, const ParameterSet& start);
 std::string to_toml(const ParameterSet& parameters);
 
 }  // namespace nacre::material

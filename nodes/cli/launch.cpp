@@ -8,6 +8,7 @@
 #include "game/reference_tables.hpp"
 #include "game/scenario.hpp"
 #include "game/starting_point.hpp"
+#include "material/unit_doubts.hpp"
 #include "measurement/limits.hpp"
 #include "output.hpp"
 #include "replay_laboratory.hpp"
@@ -45,9 +46,10 @@ void warn_about_inks(const game::Scenario& scenario) {
 
 /// Values of the user's own that no ink explains, but a mistaken unit.
 void warn_about_units(const game::Scenario& scenario) {
-  if (!scenario.ranges_file.empty()) cli::warn_about_units(scenario.ranges_file, game::ranges_of(scenario));
+  const material::ParameterRanges ranges = game::ranges_of(scenario);
+  if (!scenario.ranges_file.empty()) warn_all(material::unit_doubts(scenario.ranges_file, ranges));
   if (!scenario.model_file.empty())
-    cli::warn_about_units(scenario.model_file, game::starting_model(scenario), game::ranges_of(scenario));
+    warn_all(material::unit_doubts(scenario.model_file, game::starting_model(scenario), ranges));
   if (scenario.base_materials_file.empty()) return;
   for (const measurement::Replicates& material : game::read_base_materials(scenario.base_materials_file)) {
     if (measurement::kUsualModulusPa.hold(material.modulus_pa) && measurement::kToughnessPa.hold(material.toughness_pa))

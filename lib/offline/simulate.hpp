@@ -1,0 +1,34 @@
+#pragma once
+// The two testers on designs, in this process, without farm and cache.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "offline/simulated_design.hpp"
+
+namespace nacre::offline {
+
+struct SimulateSettings {
+  material::ParameterSet parameters;  ///< of unrefined elements
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  bool modulus = true, toughness = true;  ///< which tests
+  SpecimenChoice choice;
+
+  /// Simulations of one design.
+  int tests_of_a_design() const { return (modulus ? 1 : 0) + (toughness ? choice.count : 0); }
+};
+
+/// What the testers compute of a design.
+tester::Simulation simulation_of(const pattern::Design& design, const SimulateSettings& settings);
+
+/// Runs the tests of all designs on all allowed cores, the long ones first, and sums up what their specimens tell. Each
+/// design holds its argument and design. `done` is called after each simulation, from any thread; what it throws ends
+/// the rest.
+void run_tests(std::vector<SimulatedDesign>& designs, const SimulateSettings& settings,
+               const std::function<void()>& done);
+
+/// Why a pattern would never be proposed: a sentence; empty where nacre proposes such, and for homogeneous designs.
+std::string departure_from_proposals(const pattern::Design& design);
+
+}  // namespace nacre::offline
