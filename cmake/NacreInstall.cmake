@@ -18,6 +18,12 @@ install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DO
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "studies" EXCLUDE PATTERN "*.md" PATTERN "*.gif" PATTERN "*.png")
 
+# Debian's Python looks here in /usr; under another prefix PYTHONPATH names the folder.
+if(NACRE_PYTHON)
+  install(TARGETS nacre_python LIBRARY DESTINATION lib/python3/dist-packages/nacre)
+  install(DIRECTORY nodes/python/nacre/ DESTINATION lib/python3/dist-packages/nacre)
+endif()
+
 # The page is bundled by npm, without which all but `nacre dashboard` works.
 install(DIRECTORY ${CMAKE_BINARY_DIR}/web/ DESTINATION ${shipped}/web OPTIONAL)
 install(CODE "if(NOT EXISTS \"${CMAKE_BINARY_DIR}/web/index.html\")

@@ -3,7 +3,7 @@ set(NACRE_GROUND base thesis pattern material optimize)
 set(NACRE_PHYSICS fem tester gpu crack film animation)
 set(NACRE_KNOWLEDGE measurement surrogate sysid diagnosis)
 set(NACRE_GAME explore select families fabricate game)
-set(NACRE_WORLD wire store runtime run report laboratory dashboard)
+set(NACRE_WORLD wire store offline runtime run report laboratory dashboard)
 set(NACRE_MODULES ${NACRE_GROUND} ${NACRE_PHYSICS} ${NACRE_KNOWLEDGE} ${NACRE_GAME} ${NACRE_WORLD})
 
 add_library(nacre_flags INTERFACE)
@@ -12,6 +12,15 @@ target_compile_options(nacre_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtua
 if(CMAKE_UNITY_BUILD) # sources are included there, so that GCC takes what stays inside one for a header's
   target_compile_options(nacre_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
+
+# Makes a static library fit for the Python module, which is a shared one. Without interposition the code stays as it is
+# in a program: same speed, same bits.
+function(nacre_for_python target)
+  if(NACRE_PYTHON)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
+endfunction()
 
 # nacre_module(NAME DEPENDS other modules... LIBRARIES external targets...)
 # Builds every .cpp of lib/NAME and lib/NAME/rivals into the static library nacre::NAME; the include root is lib/.
@@ -29,6 +38,7 @@ function(nacre_module name)
     add_library(nacre_${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(nacre_${name} PRIVATE nacre_flags)
+    nacre_for_python(nacre_${name})
   else()
     add_library(nacre_${name} INTERFACE)
     set(scope INTERFACE)

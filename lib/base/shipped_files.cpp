@@ -11,13 +11,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Empty: that of the program.
+fs::path folder_that_was_set;
+
 /// PREFIX/bin, or bin/ of the build; empty where /proc does not say.
 fs::path program_folder() {
+  if (!folder_that_was_set.empty()) return folder_that_was_set;
   std::error_code unreadable;
   return fs::read_symlink("/proc/self/exe", unreadable).parent_path();
 }
 
 }  // namespace
+
+void set_program_folder(const fs::path& folder) { folder_that_was_set = folder; }
 
 std::optional<fs::path> installed_folder() {
   std::error_code unreadable;

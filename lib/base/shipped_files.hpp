@@ -7,6 +7,10 @@
 
 namespace nacre {
 
+/// For a library in a program that is not nacre's: what is found beside the program is looked for beside this folder
+/// from now on, as if the program lay there. Before any other thread looks.
+void set_program_folder(const std::filesystem::path& folder);
+
 /// Of a program installed as PREFIX/bin/PROGRAM: PREFIX/share/nacre. Nothing for one that runs where it was built.
 std::optional<std::filesystem::path> installed_folder();
 

@@ -137,8 +137,12 @@ std::string table_text(std::string_view name, std::span<const std::string_view> 
 }  // namespace
 
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start) {
-  const FilePlace place{path.string()};
-  toml::table file = read_toml_file(path);
+  return parameters_from_toml(read_file(path), path.string(), start);
+}
+
+ParameterSet parameters_from_toml(std::string_view text, std::string_view source, const ParameterSet& start) {
+  const FilePlace place{std::string(source)};
+  toml::table file = read_toml(text, source);
   ModulusVector modulus = to_vector(start.modulus);
   Extensions extensions = start.extensions;
   FailureKeys failure{start.criterion, start.strength_cv};

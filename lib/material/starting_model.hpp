@@ -2,6 +2,7 @@
 // What simulations and fits begin with: parameters, and the ranges that their failure criterion has.
 
 #include <filesystem>
+#include <functional>
 
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
@@ -13,8 +14,13 @@ struct StartingModel {
   ParameterRanges ranges;
 };
 
-/// The parameters of a file (empty: none) over the built-in ones of its criterion, these brought inside the ranges: of
-/// a file (empty: none), where absent those of the criterion. Throws InputError.
+/// Reads parameters; what they leave out keeps the value of `start`.
+using ParameterReader = std::function<ParameterSet(const ParameterSet& start)>;
+
+/// The parameters that are read over the built-in ones of their criterion, these brought inside the ranges: of a file
+/// (empty: none), where absent those of the criterion. Throws InputError.
+StartingModel starting_model(const ParameterReader& read, const std::filesystem::path& ranges);
+/// The parameters of a file; empty: none.
 StartingModel starting_model(const std::filesystem::path& parameters, const std::filesystem::path& ranges);
 
 }  // namespace nacre::material

@@ -2,21 +2,21 @@
 // set.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <fmt/ranges.h>
 
 #include "base/counted.hpp"
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "command.hpp"
 #include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
+#include "offline/calibration_json.hpp"
+#include "offline/specimen_units.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
-#include "specimen_doubts.hpp"
 #include "sysid/offline.hpp"
 #include "sysid/provenance.hpp"
 #include "thesis/constants.hpp"
@@ -40,90 +40,6 @@ struct Options {
   std::uint64_t seed = 1;
   bool json = false;
 };
-
-nlohmann::ordered_json to_json(const sysid::PredictionErrors& errors) {
-  nlohmann::ordered_json document = {{"E_mean", nullptr},
-                                     {"E_max", nullptr},
-                                     {"T_mean", nullptr},
-                                     {"T_max", nullptr},
-                                     {"T_spearman", nullptr},
-                                     {"E_count", errors.modulus_count},
-                                     {"T_count", errors.toughness_count}};
-  if (errors.modulus_count > 0) {
-    document["E_mean"] = errors.modulus_mean;
-    document["E_max"] = errors.modulus_max;
-  }
-  if (errors.toughness_count > 0) {
-    document["T_mean"] = errors.toughness_mean;
-    document["T_max"] = errors.toughness_max;
-  }
-  constexpr int kFewestToRank = 3;
-  if (errors.toughness_count >= kFewestToRank) document["T_spearman"] = errors.toughness_spearman;
-  return document;
-}
-
-nlohmann::ordered_json to_json(const sysid::GoodnessOfFit& fit) {
-  if (fit.count == 0) return nullptr;
-  const auto if_tested = [&](const nlohmann::ordered_json& value) {
-    return fit.tested() ? value : nlohmann::ordered_json(nullptr);
-  };
-  return {{"designs", fit.count},
-          {"freedom", fit.freedom},
-          {"chi_squared", fit.chi_squared},
-          {"chi_squared_replicates", fit.chi_squared_replicates},
-          {"p_value", if_tested(fit.p_value)},
-          {"misfit", if_tested(fit.misfit())}};
-}
-
-/// log simulated - log measured of every fitted design.
-nlohmann::ordered_json residuals_of(const sysid::OfflineCalibration& result) {
-  const auto log_ratio = [](int count, const std::optional<double>& simulated,
-                            double measured) -> nlohmann::ordered_json {
-    return count > 0 && simulated ? nlohmann::ordered_json(std::log(*simulated / measured))
-                                  : nlohmann::ordered_json(nullptr);
-  };
-  nlohmann::ordered_json residuals = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < result.measured.size(); ++i) {
-    const measurement::Replicates& measured = result.measured[i];
-    const sysid::Prediction& predicted = result.calibrated.predictions[i];
-    residuals.push_back(
-        {{"design", measured.design.name()},
-         {"specimens", measured.specimens},
-         {"log_modulus", log_ratio(measured.modulus_count, predicted.modulus_pa, measured.modulus_pa)},
-         {"log_toughness", log_ratio(measured.toughness_count, predicted.toughness_pa, measured.toughness_pa)}});
-  }
-  return residuals;
-}
-
-nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
-  const sysid::Calibrated& calibrated = result.calibrated;
-  nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  for (const sysid::ParameterEstimate& estimate : calibrated.estimates) {
-    parameters[estimate.name] = {{"value", estimate.value},
-                                 {"interval90", {estimate.low90, estimate.high90}},
-                                 {"determined", estimate.determined}};
-  }
-  nlohmann::ordered_json after = {{"fitted", to_json(result.after_fitted)},
-                                  {"held_out", to_json(result.after_held_out)}};
-  if (result.ensemble_held_out.toughness_count > 0) after["held_out_ensemble"] = to_json(result.ensemble_held_out);
-  return {{"before", {{"fitted", to_json(result.before_fitted)}, {"held_out", to_json(result.before_held_out)}}},
-          {"after", after},
-          {"parameters", parameters},
-          {"simulations", result.simulations},
-          {"begun_simulations", result.begun_simulations},
-          {"fitted", result.fitted},
-          {"held_out", result.held_out},
-          {"left_out", result.left_out},
-          {"objective",
-           {{"modulus", {calibrated.modulus_objective_before, calibrated.modulus_objective_after}},
-            {"toughness", {calibrated.toughness_objective_before, calibrated.toughness_objective_after}}}},
-          {"deviance", {{"modulus", calibrated.modulus_deviance}, {"toughness", calibrated.toughness_deviance}}},
-          {"goodness_of_fit",
-           {{"modulus", to_json(calibrated.modulus_fit)}, {"toughness", to_json(calibrated.toughness_fit)}}},
-          {"convergence", {{"modulus", calibrated.modulus_objectives}, {"toughness", calibrated.toughness_objectives}}},
-          {"searches", calibrated.search_objectives},
-          {"residuals", residuals_of(result)}};
-}
 
 /// Whether the residuals can be noise.
 void print_fit(std::string_view what, const sysid::GoodnessOfFit& fit) {
@@ -211,7 +127,7 @@ int calibrate(const Options& options) {
   settings.calibration.searches = options.searches;
   settings.calibration.ensemble_size = options.ensemble;
   settings.fidelity = fidelity_from_option(options.fidelity);
-  warn_of_units(set.specimens, settings.calibration.start, settings.fidelity);
+  warn_all(offline::specimen_unit_doubts(set.specimens, settings.calibration.start, settings.fidelity).first);
   settings.hold_out = options.hold_out;
   settings.store = options.store;
   settings.calibration.floor =
@@ -232,7 +148,7 @@ int calibrate(const Options& options) {
     remark(fmt::format("{}: left out, the fit is of {} alone", fmt::join(result.left_out, ", "),
                        result.base_materials ? "soft, rigid and interface" : "patterns"));
   write_file_atomically(options.out, material::to_toml(result.calibrated.parameters));
-  nlohmann::ordered_json document = to_json(result);
+  nlohmann::ordered_json document = offline::to_json(result);
   document["rejected"] = rejected_json(set.rejected);
   options.json ? print_json(document) : print_table(result, model.ranges);
   return 0;

@@ -7,6 +7,7 @@
 
 #include "base/counted.hpp"
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "command.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/included_specimens.hpp"
@@ -15,14 +16,14 @@
 #include "diagnosis/table_trends.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
+#include "offline/diagnose.hpp"
+#include "offline/specimen_units.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "report/diagnosis_page.hpp"
 #include "report/report_diagnosis.hpp"
 #include "shipped_files.hpp"
-#include "specimen_doubts.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -121,15 +122,6 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   return settings;
 }
 
-diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
-                                  const diagnosis::DiagnosisSettings& settings) {
-  try {
-    return diagnosis::diagnose(part.specimens, settings);
-  } catch (const diagnosis::TooFewSpecimens& problem) {
-    return diagnosis::undecided(problem.what());
-  }
-}
-
 /// The status of an effect in a plan.
 std::string_view plan_in_words(std::string_view status) {
   if (status == "told_apart") return "can be named";
@@ -207,19 +199,15 @@ int diagnose(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
-  const std::string doubt_of_units = warn_of_units(set.specimens, settings.start, settings.fidelity);
+  warn_all(offline::specimen_unit_doubts(set.specimens, settings.start, settings.fidelity).first);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, options.fracture);
-  diagnosis::Diagnosis d = diagnosis_of(part, settings);
+  const diagnosis::Diagnosis d = offline::diagnose_set(set, options.fracture, settings);
   progress.end();
-  d.summary += part.left_out + doubt_of_units;
   if (!options.report.empty())
     write_file_atomically(options.report, report::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {
-    auto document = nlohmann::ordered_json::parse(to_json(d));
-    document["rejected"] = rejected_json(set.rejected);
-    print_json(document);
+    print_json(offline::diagnosis_json(d, set.rejected));
   } else {
     fmt::print("{}: {}\n", report::verdict_in_words(std::string(diagnosis::to_string(d.verdict))), d.summary);
     print_candidates(d);

@@ -2,28 +2,22 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/ranges.h>
 
 #include "base/counted.hpp"
-#include "base/hash.hpp"
-#include "base/parallel.hpp"
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
-#include "explore/batch_log.hpp"
 #include "explore/gamut_csv.hpp"
-#include "explore/mechanics.hpp"
 #include "explore/search.hpp"
-#include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
+#include "offline/explore.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
-#include "store/kept_simulation.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -43,21 +37,12 @@ struct Options {
   bool json = false;
 };
 
-void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& options, int failed) {
-  const std::vector<optimize::Performance> points = explore::performances_of(gamut);
-  const double hypervolume = optimize::hypervolume_staircase_gpa_mpa(points);
-  const std::size_t front_size = optimize::pareto_front(points).size();
-  if (options.json) {
-    print_json({{"evaluated", gamut.size()},
-                {"failed", failed},
-                {"front", front_size},
-                {"hypervolume_gpa_mpa", hypervolume},
-                {"gamut", options.out}});
-  } else {
-    fmt::print("{} simulated ({} failed), {} of them on the Pareto front, hypervolume {:.4f} GPa MPa; written to {}\n",
-               counted(static_cast<std::int64_t>(gamut.size()), "pattern"), failed, front_size, hypervolume,
-               options.out);
-  }
+void print_summary(const offline::Explored& explored, const Options& options) {
+  const nlohmann::ordered_json document = offline::to_json(explored, options.out);
+  if (options.json) return print_json(document);
+  fmt::print("{} simulated ({} failed), {} of them on the Pareto front, hypervolume {:.4f} GPa MPa; written to {}\n",
+             counted(static_cast<std::int64_t>(explored.gamut.size()), "pattern"), explored.failed,
+             document["front"].get<int>(), document["hypervolume_gpa_mpa"].get<double>(), options.out);
 }
 
 explore::SearchSettings search_settings(const Options& options) {
@@ -78,52 +63,56 @@ explore::SearchSettings search_settings(const Options& options) {
   return settings;
 }
 
-int explore_gamut(const Options& options) {
-  const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
-  const auto parameters = parameters_from_option(options.params, material::default_parameters());
-  explore::SearchSettings settings = search_settings(options);
-  settings.mechanics = explore::mechanics_by_tester(parameters, fidelity, 0);
-  const auto search = explore::make_search(settings);
-  const int unlearnt = settings.population + (settings.former.empty() ? settings.learned.barred_start : 0);
-  if (settings.algorithm == "learned" && settings.budget <= unlearnt)
-    remark(fmt::format("--budget {}: too small for `learned`, which begins to learn after {} patterns", settings.budget,
+offline::ExploreSettings settings_from(const Options& options) {
+  offline::ExploreSettings settings;
+  settings.fidelity = fidelity_from_option(options.fidelity);
+  settings.parameters = parameters_from_option(options.params, material::default_parameters());
+  settings.search = search_settings(options);
+  settings.cache = options.cache;
+  if (!options.cache.empty()) settings.batches = options.out + ".batches";
+  const explore::SearchSettings& search = settings.search;
+  const int unlearnt = search.population + (search.former.empty() ? search.learned.barred_start : 0);
+  if (search.algorithm == "learned" && search.budget <= unlearnt)
+    remark(fmt::format("--budget {}: too small for `learned`, which begins to learn after {} patterns", search.budget,
                        unlearnt));
-  prepare_output_file(options.out, {options.cache, options.params, options.former});
-  std::unique_ptr<store::SimulationCache> cache;
-  std::optional<explore::BatchLog> log;
-  if (!options.cache.empty()) {
-    cache = std::make_unique<store::SimulationCache>(options.cache);
-    log.emplace(options.out + ".batches", settings, content_hash(options.fidelity + material::to_toml(parameters)));
+  return settings;
+}
+
+/// Writes the gamut now and then, so that little is lost where the program is killed.
+class SavedGamut {
+ public:
+  explicit SavedGamut(std::string file) : file_(std::move(file)) {}
+  void keep(const std::vector<explore::Evaluated>& gamut) {
+    constexpr auto kSaveEvery = std::chrono::seconds(5);
+    if (std::chrono::steady_clock::now() - saved_ < kSaveEvery) return;
+    explore::write_gamut_csv(file_, gamut);
+    saved_ = std::chrono::steady_clock::now();
   }
-  const auto ask = [&] { return log ? log->ask(*search) : search->ask(); };
+
+ private:
+  std::string file_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+};
+
+int explore_gamut(const Options& options) {
+  const offline::ExploreSettings settings = settings_from(options);
+  explore::make_search(settings.search);  // bad settings are refused before a folder is made
+  prepare_output_file(options.out, {options.cache, options.params, options.former});
   const runtime::Interrupts interrupts;
   Progress progress("explore: patterns", options.budget);
-  constexpr auto kSaveEvery = std::chrono::seconds(5);
-  auto saved = std::chrono::steady_clock::now();
-  int failed = 0;
-  for (auto batch = ask(); !batch.empty(); batch = ask()) {
-    std::vector<std::optional<optimize::Performance>> performances(batch.size());
-    parallel_for(static_cast<int>(batch.size()), [&](int i) {
-      const auto index = static_cast<std::size_t>(i);
-      if (interrupts.any()) return;
-      performances[index] = store::kept_performance({batch[index], parameters, {}, fidelity}, cache.get());
-      progress.advance();
-    });
-    if (interrupts.any()) break;  // what is missing of this batch was not simulated: it must not count as failed
-    for (const auto& performance : performances) failed += performance ? 0 : 1;
-    search->tell(performances);
-    if (std::chrono::steady_clock::now() - saved < kSaveEvery) continue;
-    explore::write_gamut_csv(options.out, search->evaluated());
-    saved = std::chrono::steady_clock::now();
-  }
-  if (interrupts.any() && search->evaluated().size() == settings.known.size()) {
+  SavedGamut saved(options.out);
+  const offline::Explored explored =
+      offline::explore_gamut(settings, {.simulated = [&] { progress.advance(); },
+                                        .stopped = [&] { return interrupts.any(); },
+                                        .told = [&](const auto& gamut) { saved.keep(gamut); }});
+  if (interrupts.any() && explored.gamut.size() == settings.search.known.size()) {
     remark(fmt::format("stopped before a pattern was simulated; {} is unchanged", options.out));
     return 1;
   }
-  explore::write_gamut_csv(options.out, search->evaluated());
+  explore::write_gamut_csv(options.out, explored.gamut);
   if (interrupts.any()) remark("stopped; the patterns simulated so far are kept");
-  print_summary(search->evaluated(), options, failed);
-  return interrupts.any() || search->evaluated().empty() ? 1 : 0;
+  print_summary(explored, options);
+  return interrupts.any() || explored.gamut.empty() ? 1 : 0;
 }
 
 }  // namespace

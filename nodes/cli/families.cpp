@@ -8,6 +8,7 @@
 
 #include "base/counted.hpp"
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "families/families_file.hpp"
@@ -16,7 +17,6 @@
 #include "family_work.hpp"
 #include "game/standings.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "run_access.hpp"
 #include "sysid/local_simulator.hpp"
 

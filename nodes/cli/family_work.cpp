@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "explore/gamut_csv.hpp"
 #include "families/dense_sampling.hpp"
 #include "families/subfamily.hpp"
@@ -16,7 +17,6 @@
 #include "game/family_errors.hpp"
 #include "game/standings.hpp"
 #include "material/parameter_file.hpp"
-#include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
 #include "sysid/offline.hpp"

@@ -9,8 +9,8 @@
 
 #include "animation/gif.hpp"
 #include "animation/scene.hpp"
+#include "base/output_path.hpp"
 #include "base/result.hpp"
-#include "output_path.hpp"
 
 namespace nacre::cli {
 

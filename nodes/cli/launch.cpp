@@ -8,6 +8,7 @@
 #include "game/reference_tables.hpp"
 #include "game/scenario.hpp"
 #include "game/starting_point.hpp"
+#include "material/unit_doubts.hpp"
 #include "measurement/limits.hpp"
 #include "output.hpp"
 #include "replay_laboratory.hpp"
@@ -46,8 +47,9 @@ void warn_about_inks(const game::Scenario& scenario) {
 /// Values of the user's own that no ink explains, but a mistaken unit.
 void warn_about_units(const game::Scenario& scenario) {
   const material::StartingModel model = game::starting_model(scenario);
-  if (!scenario.ranges_file.empty()) cli::warn_about_units(scenario.ranges_file, model.ranges);
-  if (!scenario.model_file.empty()) cli::warn_about_units(scenario.model_file, model.parameters, model.ranges);
+  if (!scenario.ranges_file.empty()) warn_all(material::unit_doubts(scenario.ranges_file, model.ranges));
+  if (!scenario.model_file.empty())
+    warn_all(material::unit_doubts(scenario.model_file, model.parameters, model.ranges));
   if (scenario.base_materials_file.empty()) return;
   for (const measurement::Replicates& material : game::read_base_materials(scenario.base_materials_file)) {
     if (measurement::kUsualModulusPa.hold(material.modulus_pa) && measurement::kToughnessPa.hold(material.toughness_pa))

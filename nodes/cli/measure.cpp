@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/counted.hpp"
+#include "base/output_path.hpp"
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/measure_set.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 // What the program prints: results on standard output, remarks on standard error.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,21 +9,21 @@
 #include "material/ranges.hpp"
 #include "material/starting_model.hpp"
 #include "measurement/read_set.hpp"
+#include "offline/json_parts.hpp"
 
 namespace nacre::cli {
 
 /// One JSON document on standard output, with a line end; numbers that are not finite become null.
 void print_json(const nlohmann::ordered_json& document);
 
-/// The value, or null.
-template <class T>
-nlohmann::ordered_json or_null(const std::optional<T>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-}
+using offline::or_null;
+using offline::rejected_json;
+using offline::row_json;
 
 /// A line on standard error.
 void remark(const std::string& line);
 void warn(const std::string& line);
+void warn_all(const std::vector<std::string>& lines);
 
 /// What was odd about the measurement set in `folder`, and the rows of it that could not be used.
 void warn_about(const measurement::MeasurementSet& set, const std::string& folder);
@@ -32,10 +31,6 @@ void warn_about(const measurement::MeasurementSet& set, const std::string& folde
 void warn_about(const measurement::RejectedRow& row, const std::string& folder);
 /// The same of any table: `TABLE:LINE: column X: reason`.
 void warn_about_table(const measurement::RejectedRow& row, const std::string& table);
-
-/// A row that could not be used as {line, column, reason}, and all of a set.
-nlohmann::ordered_json row_json(const measurement::RejectedRow& row);
-nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>& rejected);
 
 /// Throws InputError unless all that was written to standard output has arrived (closed pipe), NoSpace on a full disk.
 void check_standard_output();
@@ -47,11 +42,6 @@ material::ParameterSet parameters_from_option(const std::string& file, const mat
 
 /// A figure with four decimals, or with three digits where these would leave little of it.
 std::string shown(double value);
-
-/// Warns of values, or ranges, that lie a hundred times outside those of `ranges`, or the thesis'.
-void warn_about_units(const std::string& file, const material::ParameterSet& set,
-                      const material::ParameterRanges& ranges);
-void warn_about_units(const std::string& file, const material::ParameterRanges& ranges);
 
 /// material::starting_model() of the files given (empty: none), with the warnings of parameters_from_option().
 material::StartingModel starting_model_from_options(const std::string& parameters, const std::string& ranges);

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "base/shipped_files.hpp"
 #include "command.hpp"
 #include "material/parameter_file.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "report/paper.hpp"
 #include "report/report.hpp"
 #include "run/adopted_model.hpp"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "base/parallel.hpp"
 #include "base/shipped_files.hpp"
 #include "command.hpp"
@@ -12,7 +13,6 @@
 #include "film_files.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "progress.hpp"
 #include "report/fracture_page.hpp"
 #include "tester/modulus.hpp"

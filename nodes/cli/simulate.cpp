@@ -7,25 +7,26 @@
 #include <vector>
 
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "base/parallel.hpp"
-#include "base/processor_time.hpp"
 #include "command.hpp"
 #include "film/film_file.hpp"
 #include "film_files.hpp"
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
 #include "measurement/set_files.hpp"
+#include "offline/simulate.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
-#include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "simulated_design.hpp"
-#include "tester/refinement.hpp"
+#include "simulated_table.hpp"
 #include "tester/strength_field.hpp"
 
 namespace nacre::cli {
 namespace {
+
+using offline::SimulatedDesign;
+using offline::SimulateSettings;
 
 struct Options {
   std::vector<std::string> patterns;
@@ -37,9 +38,8 @@ struct Options {
   std::string film;
   int frame_count = film::kFrames;
   int film_width = 960;
-  SpecimenChoice choice;
-  std::string criterion;
-  std::optional<double> strength_cv;
+  offline::SpecimenChoice choice;
+  offline::ModelChoice model;
   bool json = false;
 
   bool wants_films() const { return !frames.empty() || !film.empty(); }
@@ -51,12 +51,8 @@ std::vector<SimulatedDesign> read_designs(const std::vector<std::string>& argume
     SimulatedDesign& simulated = designs.emplace_back();
     simulated.argument = argument;
     simulated.design = pattern::design_from_argument(argument);
-    const pattern::Layout* layout = simulated.design.layout();
-    if (layout == nullptr) continue;
-    const auto symmetric = pattern::Pattern::from_layout(*layout);
-    const auto violation =
-        symmetric ? pattern::violation(*symmetric) : "it lacks the eightfold symmetry of nacre's proposals";
-    if (violation) warn(fmt::format("{}: {}; it is simulated all the same", argument, *violation));
+    const std::string departure = offline::departure_from_proposals(simulated.design);
+    if (!departure.empty()) warn(fmt::format("{}: {}; it is simulated all the same", argument, departure));
   }
   return designs;
 }
@@ -75,76 +71,16 @@ bool is_first(const SimulatedDesign& simulated, const std::vector<SimulatedDesig
   return &*std::ranges::find(designs, simulated.design, &SimulatedDesign::design) == &simulated;
 }
 
-tester::Simulation simulation_of(const SimulatedDesign& simulated, const Options& options,
-                                 const material::ParameterSet& parameters) {
-  return {.design = simulated.design,
-          .parameters = tester::refined(parameters, options.choice.refine),
-          .conditions = {},
-          .fidelity = fidelity_from_option(options.fidelity)};
-}
-
-void pull_specimen(SimulatedDesign& simulated, tester::Simulation simulation, std::size_t specimen,
-                   const Options& options) {
-  const double begun_s = processor_time_s();
-  simulation.specimen = static_cast<int>(specimen);
-  simulated.pulled[specimen] = tester::test_toughness(simulation, {.refinement = options.choice.refine});
-  simulated.kernel_s[specimen] = processor_time_s() - begun_s;
-}
-
-/// What the broken specimens tell together, and the crack of the first; a refined crack counts other elements.
-void sum_up(SimulatedDesign& simulated, const tester::Simulation& simulation, const Options& options) {
-  std::vector<tester::ToughnessResult> broken;
-  for (const Result<tester::ToughnessResult>& each : simulated.pulled)
-    if (each) broken.push_back(*each);
-  if (broken.empty() || broken.size() < simulated.pulled.size()) return;
-  simulated.toughness = tester::expected_toughness_of(std::move(broken));
-  if (options.choice.refine > 1) return;
-  simulated.crack = crack::record_of(simulation, simulated.pulled.front()->breaks);
-  simulated.mechanisms = crack::mechanisms_of(simulation, *simulated.crack);
-}
-
-/// A test of a design; the number of its specimen counts in a toughness test alone.
-struct SpecimenTest {
-  SimulatedDesign* simulated;
-  tester::TestKind test;
-  int specimen = 0;
-};
-
-/// The long tests first.
-std::vector<SpecimenTest> wanted_tests(std::vector<SimulatedDesign>& designs, const Options& options) {
-  std::vector<SpecimenTest> tests;
-  if (options.test != "modulus") {
-    for (SimulatedDesign& simulated : designs) {
-      const auto count = static_cast<std::size_t>(options.choice.count);
-      simulated.pulled.assign(count, fail("not tested"));
-      simulated.kernel_s.assign(count, 0.0);
-      for (int i = 0; i < options.choice.count; ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
-    }
-  }
-  if (options.test != "toughness")
-    for (SimulatedDesign& simulated : designs) tests.push_back({&simulated, tester::TestKind::modulus});
-  return tests;
-}
-
-void run_tests(std::vector<SimulatedDesign>& designs, const Options& options,
-               const material::ParameterSet& parameters) {
-  const std::vector<SpecimenTest> tests = wanted_tests(designs, options);
-  Progress progress("simulate: tests", static_cast<std::int64_t>(tests.size()));
-  parallel_for(static_cast<int>(tests.size()), [&](int i) {
-    const SpecimenTest& each = tests[static_cast<std::size_t>(i)];
-    const tester::Simulation simulation = simulation_of(*each.simulated, options, parameters);
-    if (each.test == tester::TestKind::modulus)
-      each.simulated->modulus = tester::test_modulus(simulation, {.refinement = options.choice.refine});
-    else
-      pull_specimen(*each.simulated, simulation, static_cast<std::size_t>(each.specimen), options);
-    progress.advance();
-  });
-  parallel_for(static_cast<int>(designs.size()), [&](int i) {
-    SimulatedDesign& simulated = designs[static_cast<std::size_t>(i)];
-    const tester::Simulation simulation = simulation_of(simulated, options, parameters);
-    sum_up(simulated, simulation, options);
-    if (simulated.toughness && options.wants_films() && is_first(simulated, designs))
-      film_specimen(simulated, simulation, options);
+/// Runs all tests, and films the specimens.
+void run_tests(std::vector<SimulatedDesign>& designs, const Options& options, const SimulateSettings& settings) {
+  const auto count = static_cast<std::int64_t>(designs.size());
+  Progress progress("simulate: tests", count * settings.tests_of_a_design());
+  offline::run_tests(designs, settings, [&] { progress.advance(); });
+  if (!options.wants_films()) return;
+  parallel_for(static_cast<int>(count), [&](int i) {
+    const SimulatedDesign& simulated = designs[static_cast<std::size_t>(i)];
+    if (simulated.toughness && is_first(simulated, designs))
+      film_specimen(simulated, simulation_of(simulated.design, settings), options);
   });
 }
 
@@ -159,19 +95,6 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
           std::filesystem::path(options.curves) / (file_stem(simulated.design.name()) + number + ".csv"),
           measurement::to_csv(simulated.pulled[i]->curve));
     }
-}
-
-/// The parameter file's, or what the options say instead.
-material::ParameterSet model_of(const Options& options) {
-  material::FailureCriterion criterion;
-  if (!options.criterion.empty()) criterion.kind = *material::criterion_from_string(options.criterion);
-  material::ParameterSet model = parameters_from_option(options.params, material::default_parameters(criterion));
-  if (!options.criterion.empty()) model.criterion.kind = criterion.kind;
-  if (options.strength_cv) model.strength_cv = *options.strength_cv;
-  if (!material::is_strength_cv(model.strength_cv))
-    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", model.strength_cv,
-                             material::kSmallestStrengthCv, material::kLargestStrengthCv);
-  return model;
 }
 
 /// Before anything is computed: the specimens that were asked for exist.
@@ -199,12 +122,19 @@ void check_output_options(const Options& options) {
 int simulate(const Options& given) {
   Options options = given;
   std::vector<SimulatedDesign> designs = read_designs(options.patterns);
-  const material::ParameterSet parameters = model_of(options);
+  const auto read = [&](const material::ParameterSet& start) { return parameters_from_option(options.params, start); };
+  const material::ParameterSet parameters =
+      offline::chosen_model(read, options.model, {"--criterion", "--strength-cv"});
   options.choice.criterion = parameters.criterion;
   options.choice.strength_cv = parameters.strength_cv;
   check_specimen_options(options, parameters);
   check_output_options(options);
-  run_tests(designs, options, parameters);
+  run_tests(designs, options,
+            {.parameters = parameters,
+             .fidelity = fidelity_from_option(options.fidelity),
+             .modulus = options.test != "toughness",
+             .toughness = options.test != "modulus",
+             .choice = options.choice});
   write_curves(designs, options);
   bool any_succeeded = false;
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
@@ -231,11 +161,12 @@ void add_simulate(CLI::App& app, Action& action) {
   command.add_option("--specimens", options->choice.count, "T is the mean over so many specimens of each pattern")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command.add_option("--strength-cv", options->strength_cv,
+  command.add_option("--strength-cv", options->model.strength_cv,
                      "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4; default: the "
                      "model's");
   command
-      .add_option("--criterion", options->criterion, "When elements fail in the toughness test; default: the model's")
+      .add_option("--criterion", options->model.criterion,
+                  "When elements fail in the toughness test; default: the model's")
       ->check(CLI::IsMember({"element", "neighbourhood", "crack_band"}));
   command.add_option("--refine", options->choice.refine, "Elements of 1/K, with the same specimens")
       ->check(CLI::Range(1, 8))

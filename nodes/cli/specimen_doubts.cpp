@@ -6,7 +6,6 @@
 #include "game/plausibility.hpp"
 #include "game/starting_point.hpp"
 #include "measurement/consistency.hpp"
-#include "output.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -40,18 +39,6 @@ std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView
   }
   for (const std::string& doubt : beside_replicates(facts.book.specimens(), specimens)) doubts.push_back(doubt);
   return doubts;
-}
-
-std::string warn_of_units(std::span<const measurement::SpecimenRecord> specimens, const material::ParameterSet& model,
-                          tester::Fidelity fidelity) {
-  constexpr int kShown = 3;
-  game::UnitDoubts units(model, fidelity);
-  int count = 0;
-  for (const measurement::SpecimenRecord& specimen : specimens)
-    if (const auto doubt = units.about(specimen); doubt && count++ < kShown) warn(*doubt);
-  if (count == 0) return "";
-  return fmt::format(" Caution: {} of {} specimens are so stiff or soft that only a wrong unit explains them.", count,
-                     specimens.size());
 }
 
 }  // namespace nacre::cli

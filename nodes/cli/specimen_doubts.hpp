@@ -15,9 +15,4 @@ namespace nacre::cli {
 std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView& view,
                                       std::span<const measurement::SpecimenRecord> specimens);
 
-/// Warns of the first few specimens that no model is so far from but by a mistaken unit. Returns a sentence on how many
-/// there are, with a blank before it; empty where there are none.
-std::string warn_of_units(std::span<const measurement::SpecimenRecord> specimens, const material::ParameterSet& model,
-                          tester::Fidelity fidelity);
-
 }  // namespace nacre::cli

@@ -1,5 +1,5 @@
 #pragma once
-// A design that `nacre simulate` has tested, for people and as JSON (docs/FORMATS.md).
+// A design that has been tested, as `nacre simulate` tells it in JSON (docs/FORMATS.md).
 
 #include <optional>
 #include <string>
@@ -11,13 +11,13 @@
 #include "tester/expected_toughness.hpp"
 #include "tester/modulus.hpp"
 
-namespace nacre::cli {
+namespace nacre::offline {
 
-/// Which specimens of every design are broken.
+/// Which specimens of every design are broken, and what of the model is told with them.
 struct SpecimenChoice {
   int count = 1;
   int refine = 1;  ///< elements of 1/refine
-  material::FailureCriterion criterion;
+  material::FailureCriterion criterion = {};
   double strength_cv = 0.0;
 
   /// Whether T is told as a mean over specimens.
@@ -41,9 +41,15 @@ struct SimulatedDesign {
   std::string failure() const;
 };
 
+/// A mean over specimens of a number that each has.
+double mean_of(const tester::ExpectedToughness& toughness, double tester::ToughnessResult::*number);
+/// Time steps of all specimens.
+std::int64_t steps_of(const tester::ExpectedToughness& toughness);
+/// Separation, unless a specimen's test ended otherwise: the first such reason.
+tester::EndReason end_of(const tester::ExpectedToughness& toughness);
+
+/// The crack of a specimen and its mechanisms; elements and their order as lists.
+nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mechanisms& mechanisms);
 nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SpecimenChoice& choice);
 
-/// One line a design, below a heading.
-void print_table(const std::vector<SimulatedDesign>& designs, const SpecimenChoice& choice);
-
-}  // namespace nacre::cli
+}  // namespace nacre::offline

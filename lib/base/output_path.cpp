@@ -1,4 +1,4 @@
-#include "output_path.hpp"
+#include "base/output_path.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,9 +11,8 @@
 #include "base/file_aside.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
-#include "output.hpp"
 
-namespace nacre::cli {
+namespace nacre {
 
 namespace fs = std::filesystem;
 
@@ -71,4 +70,4 @@ void prepare_output_folder(const std::string& folder) {
   prove_writing(fs::path(folder) / "any", folder);
 }
 
-}  // namespace nacre::cli
+}  // namespace nacre

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace nacre::cli {
+namespace nacre {
 
 /// Makes the folders above `file` and proves that it can be written, leaving one that is there as it is. Throws
 /// InputError naming the path and the system's reason; also for a folder, a device, a pipe.
@@ -16,4 +16,4 @@ void prepare_output_file(const std::string& file, std::initializer_list<std::str
 /// Makes `folder` with its parents and proves that files can be made in it. Throws InputError.
 void prepare_output_folder(const std::string& folder);
 
-}  // namespace nacre::cli
+}  // namespace nacre

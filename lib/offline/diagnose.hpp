@@ -1,0 +1,23 @@
+#pragma once
+// The diagnosis of a measurement set in this process.
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/settings.hpp"
+#include "measurement/read_set.hpp"
+
+namespace nacre::offline {
+
+/// Diagnoses the specimens of a set, fracture tests where `fracture` asks for them (included_specimens.hpp); the
+/// summary tells what was left out and which units are in doubt. Specimens that are too few leave it undecided.
+diagnosis::Diagnosis diagnose_set(const measurement::MeasurementSet& set, bool fracture,
+                                  const diagnosis::DiagnosisSettings& settings);
+
+/// The JSON document of `nacre diagnose --json`.
+nlohmann::ordered_json diagnosis_json(const diagnosis::Diagnosis& diagnosis,
+                                      const std::vector<measurement::RejectedRow>& rejected);
+
+}  // namespace nacre::offline
