@@ -9,12 +9,12 @@
 #include "base/counted.hpp"
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "csv_tables.hpp"
 #include "log_messages.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 #include "runtime/mcap_writer.hpp"
 #include "runtime/version.hpp"
 

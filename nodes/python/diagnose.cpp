@@ -5,6 +5,7 @@
 #include "conversion.hpp"
 #include "measured.hpp"
 #include "module.hpp"
+#include "parameters.hpp"
 
 namespace nacre::python {
 namespace {
