@@ -19,7 +19,7 @@ void add_gamut(py::dict& dict, const std::vector<explore::Evaluated>& gamut) {
     keys.append(gamut[index].pattern.key());
     modulus_pa.mutable_at(i) = points[index].modulus_pa;
     toughness_pa.mutable_at(i) = points[index].toughness_pa;
-    is_on_front.mutable_at(i) = ranks[index] == 0;
+    is_on_front.mutable_at(i) = ranks[index] == 1;
   }
   dict["pattern"] = py::module_::import("numpy").attr("array")(keys, "U14");
   dict["modulus_pa"] = modulus_pa;

@@ -167,7 +167,7 @@ class Errors(unittest.TestCase):
         self.assert_refused("specimens 0: expected 1 to 1000", lambda: nacre.simulate("a", specimens=0))
         self.assert_refused("strength_cv 0.5: expected 0 or 0.02 to 0.4", lambda: nacre.simulate("a", strength_cv=0.5))
         self.assert_refused("film 1: expected 2 to 1000", lambda: nacre.simulate("a", film=1))
-        self.assert_refused("modulus.e_x_pa: unknown key", lambda: nacre.read_parameters({"modulus": {"e_x_pa": 1.0}}))
+        self.assert_refused("modulus.e_x_pa = 1: unknown key", lambda: nacre.read_parameters({"modulus": {"e_x_pa": 1.0}}))
         self.assert_refused("modulus.nu_tb", lambda: nacre.read_parameters({"modulus": {"nu_tb": 0.7}}))
         self.assert_refused("no-such.toml", lambda: nacre.simulate("a", params="no-such.toml"))
         self.assert_refused("budget 0: expected 1 to", lambda: nacre.explore(budget=0))
