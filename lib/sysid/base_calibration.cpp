@@ -30,7 +30,6 @@ std::size_t at(Value place, int material) {
 
 double middle_of(const ParameterRange& range) { return 0.5 * (range.minimum + range.maximum); }
 
-
 /// One candidate of one material; `modulus_pa` of theta or `trial` of eta.
 struct CandidateConstant {
   int material = 0;
@@ -133,9 +132,10 @@ struct BaseCalibration::State {
       theta[at(kNu0, m)] = middle_of(theta_ranges()[at(kNu0, m)]);
       eta[at(kNu0, m)] = middle_of(eta_ranges()[at(kNu0, m)]);
     }
-    return {settings.modulus_budget > 0 ? material::modulus_from_vector(theta) : settings.start.modulus,
-            settings.toughness_budget > 0 ? material::toughness_from_vector(eta) : settings.start.toughness,
-            settings.start.extensions};
+    ParameterSet centred = settings.start;
+    if (settings.modulus_budget > 0) centred.modulus = material::modulus_from_vector(theta);
+    if (settings.toughness_budget > 0) centred.toughness = material::toughness_from_vector(eta);
+    return centred;
   }
 
   void ask() {

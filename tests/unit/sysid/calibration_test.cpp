@@ -616,6 +616,19 @@ TEST(BaseCalibration, GoesAsFarAsTheRangesItIsGiven) {
   EXPECT_LT(result.after.toughness_max, 0.01);
 }
 
+TEST(BaseCalibration, KeepsCriterionVariationOfStrengthAndExtensions) {
+  const std::vector<Replicates> measured = base_materials();
+  CalibrationSettings base = base_settings();
+  base.start.criterion.kind = material::CriterionKind::neighbourhood;
+  base.start.strength_cv = 0.1;
+  base.start.extensions = {{"machine_compliance", {0.0}}};
+  BaseCalibration calibration(measured, base);
+  const Calibrated result = finish_by(calibration, measured, base_prediction);
+  EXPECT_EQ(result.parameters.criterion, base.start.criterion);
+  EXPECT_EQ(result.parameters.strength_cv, base.start.strength_cv);
+  EXPECT_EQ(result.parameters.extensions, base.start.extensions);
+}
+
 TEST(BaseCalibration, KeepsWhatHasNoBudget) {
   const std::vector<Replicates> measured = base_materials();
   CalibrationSettings base = base_settings();
