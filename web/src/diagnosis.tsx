@@ -253,7 +253,7 @@ function Hidden({ revealed }: { revealed: Revealed }) {
       {revealed.causes.length === 0 && <p>Nothing: its measurements differ from the base model by noise alone.</p>}
       {revealed.causes.map((cause) => (
         <p key={cause.name}>
-          <strong>{words(cause.name)}</strong> {cause.values.map(figure).join(", ")} ({cause.meaning})
+          <strong>{words(cause.name)}</strong> {cause.values.map((value) => figure(value)).join(", ")} ({cause.meaning})
           {!cause.in_library &&
             ": the diagnosis has no name for it, the honest answer is that something is unexplained"}
         </p>
