@@ -410,6 +410,7 @@ TEST_F(OneCommand, PlaysTheDemonstrationAndKeepsRunsInTheProject) {
   EXPECT_EQ(called({"--seed", "2"}), begun(in_project("launch/demo.toml") + logs + "--seed\n2\n"));
   std::ofstream(caller_ / "mine.toml");
   EXPECT_EQ(called({"mine.toml", "--seed", "2"}), begun("mine.toml\n" + logs + "--seed\n2\n"));
+  EXPECT_EQ(called({"demo"}), begun(in_project("launch/demo.toml") + logs)) << "by its name";
   EXPECT_THAT(called({"nobodys.toml"}), HasSubstr("nobodys.toml: no such scenario"));
 }
 
