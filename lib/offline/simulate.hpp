@@ -13,16 +13,6 @@
 
 namespace nacre::offline {
 
-struct SimulateSettings {
-  material::ParameterSet parameters;  ///< of unrefined elements
-  tester::Fidelity fidelity = tester::Fidelity::full;
-  bool modulus = true, toughness = true;  ///< which tests
-  SpecimenChoice choice;
-
-  /// Simulations of one design.
-  int tests_of_a_design() const { return (modulus ? 1 : 0) + (toughness ? choice.count : 0); }
-};
-
 /// What the caller says of a model in place of what it holds; nothing: the model's.
 struct ModelChoice {
   std::optional<std::string> criterion;

@@ -91,7 +91,7 @@ std::string SimulatedDesign::failure() const {
   return "";
 }
 
-nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SpecimenChoice& choice) {
+nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SimulateSettings& settings) {
   nlohmann::ordered_json entry = {{"pattern", simulated.argument}, {"key", simulated.design.name()}};
   if (const std::string failure = simulated.failure(); !failure.empty()) {
     entry["error"] = failure;
@@ -103,8 +103,10 @@ nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SpecimenC
   }
   if (simulated.modulus) entry["modulus_pa"] = (*simulated.modulus)->modulus_pa;
   if (simulated.toughness) add_toughness(entry, simulated);
-  if (simulated.toughness && choice.tells_mean()) add_specimens(entry, *simulated.toughness, choice.strength_cv);
-  if (simulated.toughness && choice.tells_criterion()) entry["criterion"] = material::to_string(choice.criterion.kind);
+  if (simulated.toughness && settings.tells_mean())
+    add_specimens(entry, *simulated.toughness, settings.parameters.strength_cv);
+  if (simulated.toughness && settings.tells_criterion())
+    entry["criterion"] = material::to_string(settings.parameters.criterion.kind);
   entry["crack"] = simulated.crack ? to_json(*simulated.crack, simulated.mechanisms) : nlohmann::ordered_json(nullptr);
   return entry;
 }

@@ -13,17 +13,25 @@
 
 namespace nacre::offline {
 
-/// Which specimens of every design are broken, and what of the model is told with them.
+/// Which specimens of every design are broken.
 struct SpecimenChoice {
   int count = 1;
   int refine = 1;  ///< elements of 1/refine
-  material::FailureCriterion criterion = {};
-  double strength_cv = 0.0;
+};
+
+struct SimulateSettings {
+  material::ParameterSet parameters;  ///< of unrefined elements
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  bool modulus = true, toughness = true;  ///< which tests
+  SpecimenChoice choice;
+
+  /// Simulations of one design.
+  int tests_of_a_design() const { return (modulus ? 1 : 0) + (toughness ? choice.count : 0); }
 
   /// Whether T is told as a mean over specimens.
-  bool tells_mean() const { return count > 1 || strength_cv > 0.0; }
+  bool tells_mean() const { return choice.count > 1 || parameters.strength_cv > 0.0; }
   /// Whether the JSON names the criterion: always, but where nothing departs from the thesis.
-  bool tells_criterion() const { return tells_mean() || criterion.kind != material::CriterionKind::element; }
+  bool tells_criterion() const { return tells_mean() || parameters.criterion.kind != material::CriterionKind::element; }
 };
 
 /// A design and the results of its tests.
@@ -50,6 +58,6 @@ tester::EndReason end_of(const tester::ExpectedToughness& toughness);
 
 /// The crack of a specimen and its mechanisms; elements and their order as lists.
 nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mechanisms& mechanisms);
-nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SpecimenChoice& choice);
+nlohmann::ordered_json to_json(const SimulatedDesign& simulated, const SimulateSettings& settings);
 
 }  // namespace nacre::offline

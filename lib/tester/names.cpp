@@ -13,6 +13,7 @@ constexpr NameTable<EndReason, 4> kEndReasons = {{{EndReason::stress_drop, "stre
                                                   {EndReason::strain_limit, "strain_limit"},
                                                   {EndReason::no_failure, "no_failure"},
                                                   {EndReason::step_limit, "step_limit"}}};
+
 }  // namespace
 
 std::string_view to_string(Fidelity fidelity) { return name_in(kFidelities, fidelity); }

@@ -119,30 +119,26 @@ void check_output_options(const Options& options) {
   prepare_film_output(options.film);
 }
 
-int simulate(const Options& given) {
-  Options options = given;
+int simulate(const Options& options) {
   std::vector<SimulatedDesign> designs = read_designs(options.patterns);
   const auto read = [&](const material::ParameterSet& start) { return parameters_from_option(options.params, start); };
-  const material::ParameterSet parameters =
-      offline::chosen_model(read, options.model, {"--criterion", "--strength-cv"});
-  options.choice.criterion = parameters.criterion;
-  options.choice.strength_cv = parameters.strength_cv;
-  check_specimen_options(options, parameters);
+  const SimulateSettings settings{
+      .parameters = offline::chosen_model(read, options.model, {"--criterion", "--strength-cv"}),
+      .fidelity = fidelity_from_option(options.fidelity),
+      .modulus = options.test != "toughness",
+      .toughness = options.test != "modulus",
+      .choice = options.choice};
+  check_specimen_options(options, settings.parameters);
   check_output_options(options);
-  run_tests(designs, options,
-            {.parameters = parameters,
-             .fidelity = fidelity_from_option(options.fidelity),
-             .modulus = options.test != "toughness",
-             .toughness = options.test != "modulus",
-             .choice = options.choice});
+  run_tests(designs, options, settings);
   write_curves(designs, options);
   bool any_succeeded = false;
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const SimulatedDesign& simulated : designs) {
     any_succeeded = any_succeeded || simulated.failure().empty();
-    document.push_back(to_json(simulated, options.choice));
+    document.push_back(to_json(simulated, settings));
   }
-  options.json ? print_json(document) : print_table(designs, options.choice);
+  options.json ? print_json(document) : print_table(designs, settings);
   return any_succeeded ? 0 : 1;
 }
 

@@ -8,7 +8,7 @@ namespace nacre::cli {
 namespace {
 
 using offline::end_of, offline::mean_of, offline::steps_of;
-using offline::SimulatedDesign, offline::SpecimenChoice;
+using offline::SimulatedDesign, offline::SimulateSettings;
 
 std::string_view in_words(tester::EndReason reason) {
   switch (reason) {
@@ -25,8 +25,8 @@ std::string_view in_words(tester::EndReason reason) {
 }
 
 /// Behind the numbers: how the test ended, or how far a mean over specimens can be trusted.
-std::string remark_on(const tester::ExpectedToughness& toughness, const SpecimenChoice& choice) {
-  if (!choice.tells_mean()) return fmt::format("{} after {} steps", in_words(end_of(toughness)), steps_of(toughness));
+std::string remark_on(const tester::ExpectedToughness& toughness, const SimulateSettings& settings) {
+  if (!settings.tells_mean()) return fmt::format("{} after {} steps", in_words(end_of(toughness)), steps_of(toughness));
   if (!toughness.toughness_se_pa) return fmt::format("{}, one specimen", in_words(end_of(toughness)));
   return fmt::format("T +- {:.2g} MPa (standard error), scatter {:.0f} %, {} specimens",
                      1e-6 * *toughness.toughness_se_pa, 100.0 * *toughness.toughness_sd_pa / toughness.toughness_pa,
@@ -35,9 +35,9 @@ std::string remark_on(const tester::ExpectedToughness& toughness, const Specimen
 
 }  // namespace
 
-void print_table(const std::vector<SimulatedDesign>& designs, const SpecimenChoice& choice) {
+void print_table(const std::vector<SimulatedDesign>& designs, const SimulateSettings& settings) {
   fmt::print("{:<24} {:>10} {:>10} {:>10} {:>14}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa",
-             "failure strain", choice.tells_mean() ? "mean over specimens" : "how the test ended");
+             "failure strain", settings.tells_mean() ? "mean over specimens" : "how the test ended");
   for (const SimulatedDesign& simulated : designs) {
     const std::string name =
         simulated.argument.size() <= 24 ? simulated.argument : simulated.design.name().substr(0, 24);
@@ -50,7 +50,7 @@ void print_table(const std::vector<SimulatedDesign>& designs, const SpecimenChoi
       const tester::ExpectedToughness& toughness = *simulated.toughness;
       fmt::print(" {:>10} {:>10.3f} {:>14.4f}  {}", shown(1e-6 * toughness.toughness_pa),
                  1e-6 * mean_of(toughness, &tester::ToughnessResult::peak_stress_pa),
-                 mean_of(toughness, &tester::ToughnessResult::failure_strain), remark_on(toughness, choice));
+                 mean_of(toughness, &tester::ToughnessResult::failure_strain), remark_on(toughness, settings));
     }
     fmt::print("\n");
   }

@@ -8,6 +8,6 @@
 namespace nacre::cli {
 
 /// One line a design, below a heading.
-void print_table(const std::vector<offline::SimulatedDesign>& designs, const offline::SpecimenChoice& choice);
+void print_table(const std::vector<offline::SimulatedDesign>& designs, const offline::SimulateSettings& settings);
 
 }  // namespace nacre::cli

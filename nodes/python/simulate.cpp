@@ -38,15 +38,11 @@ SimulateSettings settings_from(const Arguments& given, const py::object& params)
     throw InputError("film shows the toughness test: test modulus does not run it");
   if (given.frame_count != 0 && given.refine > 1) throw InputError("film shows unrefined elements: leave out refine");
   const auto read = [&](const material::ParameterSet& start) { return parameters_from(params, start); };
-  const material::ParameterSet model = offline::chosen_model(read, given.model);
-  return {.parameters = model,
+  return {.parameters = offline::chosen_model(read, given.model),
           .fidelity = fidelity_from(given.fidelity),
           .modulus = given.test != "toughness",
           .toughness = given.test != "modulus",
-          .choice = {.count = given.specimens,
-                     .refine = given.refine,
-                     .criterion = model.criterion,
-                     .strength_cv = model.strength_cv}};
+          .choice = {.count = given.specimens, .refine = given.refine}};
 }
 
 /// A design with its film, where one was asked for.
@@ -73,7 +69,7 @@ std::vector<Tested> tested(std::vector<SimulatedDesign> designs, const SimulateS
 }
 
 py::object python_of(const Tested& each, const SimulateSettings& settings) {
-  const py::dict entry = python::python_of(to_json(each.simulated, settings.choice));
+  const py::dict entry = python::python_of(to_json(each.simulated, settings));
   if (entry.contains("error")) return entry;
   py::list curves;
   for (const Result<tester::ToughnessResult>& pulled : each.simulated.pulled)

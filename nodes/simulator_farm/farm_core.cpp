@@ -65,8 +65,9 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   entry.request = *std::move(read);
   const wire::SimulateRequest& request = entry.request;
   if (open_requests_ == 0) asked_ = done_ = 0;
+  const std::vector<WantedTest> tests = tests_of(request);
   for (const pattern::Design& design : request.designs) {
-    for (const WantedTest& wanted : tests_of(request)) {
+    for (const WantedTest& wanted : tests) {
       const std::string key = tester::simulation_key(simulation_of(request, design, wanted.specimen), wanted.test);
       OpenTest& open_test = tests_[key];
       if (open_test.suffices(wanted.extras)) continue;
@@ -157,11 +158,11 @@ wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, 
   for (const WantedTest& wanted : tests_of(request)) {
     const OpenTest& asked = open_test(request, design, wanted);
     if (const std::string& failure = asked.failure(wanted.extras); !failure.empty()) {
-      const std::string which = request.specimens > 1 ? fmt::format(" of specimen {}", wanted.specimen) : "";
+      const bool is_one_of_many = wanted.test == tester::TestKind::toughness && request.specimens > 1;
+      const std::string which = is_one_of_many ? fmt::format(" of specimen {}", wanted.specimen) : "";
       wire::SimulatedDesign failed;
       failed.design = design;
-      failed.failure = fmt::format("{}{}: {}", tester::to_string(wanted.test),
-                                   wanted.test == tester::TestKind::toughness ? which : "", failure);
+      failed.failure = fmt::format("{}{}: {}", tester::to_string(wanted.test), which, failure);
       return failed;
     }
     if (wanted.test == tester::TestKind::modulus)
