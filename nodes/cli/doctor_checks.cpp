@@ -53,8 +53,6 @@ Result<double> seconds_to_keep(const fs::path& folder) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-constexpr const char* kMakeAgain = "cmake --build build   # or install the package again";
-
 }  // namespace
 
 Finding check_programs() {
@@ -64,7 +62,8 @@ Finding check_programs() {
   }
   const std::string folder = runtime::this_program().parent_path().string();
   if (missing.empty()) return {"programs of the nodes", CheckStatus::good, "all in " + folder};
-  return {"programs of the nodes", CheckStatus::fault, fmt::format("not in {}:{}", folder, missing), kMakeAgain};
+  return {"programs of the nodes", CheckStatus::fault, fmt::format("not in {}:{}", folder, missing),
+          "cmake --build build"};
 }
 
 Finding check_versions() {
@@ -76,7 +75,8 @@ Finding check_versions() {
       others.push_back(fmt::format("nacre_{}: {}", node, first_line(answer.output)));
   }
   if (!others.empty()) {
-    return {"versions", CheckStatus::fault, fmt::format("nacre: {}; {}", own, fmt::join(others, "; ")), kMakeAgain};
+    return {"versions", CheckStatus::fault, fmt::format("nacre: {}; {}", own, fmt::join(others, "; ")),
+            "cmake --build build"};
   }
   const std::string libraries = fmt::format("{}; SQLite {}", own, sqlite3_libversion());
   if (sqlite3_libversion_number() >= 3037000 && sqlite3_threadsafe() != 0)
@@ -133,15 +133,13 @@ Finding check_receive_buffer() {
 
 Finding check_disk(const fs::path& logs) {
   constexpr double kWantedGb = 1.0;
-  fs::path folder = fs::absolute(logs);
-  while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
   struct statvfs disk {};
-  if (::statvfs(folder.c_str(), &disk) != 0)
-    return {"disk space", CheckStatus::fault, fmt::format("{}: no such folder", folder.string()),
+  if (::statvfs(logs.c_str(), &disk) != 0) {
+    return {"disk space", CheckStatus::fault, fmt::format("{}: no such folder", logs.string()),
             "mkdir -p " + shell_word(logs)};
+  }
   const double free_gb = 1e-9 * static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
-  const std::string found = fmt::format("{:.1f} GB free in {}{}", free_gb, logs.string(),
-                                        fs::exists(logs) ? "" : ", which the first game makes");
+  const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, logs.string());
   if (free_gb >= kWantedGb) return {"disk space", CheckStatus::good, found};
   return {"disk space", CheckStatus::fault, found,
           fmt::format("du -sh {}/*   # and delete runs that nobody needs", shell_word(logs))};

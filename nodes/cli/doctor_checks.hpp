@@ -32,7 +32,7 @@ Finding check_loopback(int port, bool lan);
 Finding check_receive_buffer();
 
 // The machine.
-/// Room in the folder, which need not be there yet, and whether it can be written.
+/// Room in the folder, and whether it can be written.
 Finding check_disk(const std::filesystem::path& logs);
 /// How long the folder's disk takes to keep something for certain, which every measurement waits for.
 Finding check_sync(const std::filesystem::path& logs);

@@ -139,10 +139,7 @@ void damage(const fs::path& file) {
   bytes << std::string(5000, '\x5a');
 }
 
-// In a folder with a blank, which the remedy must quote.
 TEST_F(Doctor, ADamagedCacheIsAFaultAndItsRemedySavesTheRest) {
-  logs_ = folder_ / "my logs";
-  fs::create_directories(logs_);
   const fs::path file = logs_ / "simulations.db";
   constexpr int kAnswers = 3000;
   {
@@ -189,12 +186,11 @@ TEST_F(Doctor, LooksAtCachesWithoutMakingOrChangingThem) {
   EXPECT_THAT(outcome.out, HasSubstr("simulations-cuda.db has schema version 99"));
 }
 
-TEST_F(Doctor, BeforeTheFirstGameThereNeedBeNoLogs) {
-  logs_ = folder_ / "none" / "yet";
-  const Said said = examine("disk space");
-  EXPECT_EQ(said.verdict(), "good");
-  EXPECT_THAT(said.finding["found"].get<std::string>(), HasSubstr("which the first game makes"));
-  EXPECT_FALSE(fs::exists(logs_)) << "looking makes none";
+TEST_F(Doctor, WhatItSaysToTypeHoldsForFoldersWithBlanks) {
+  logs_ = folder_ / "my logs";
+  EXPECT_EQ(examine("disk space").verdict(), "fault");
+  type(examine("disk space").remedy());
+  EXPECT_TRUE(fs::is_directory(logs_));
 }
 
 TEST_F(Doctor, ProgramsOfDifferentBuildsAreAFault) {
