@@ -252,6 +252,7 @@ lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
                    .replicates = kReplicates,
                    .noise = noise_of(trial),
                    .modulus = lab::draw_modulus_parameters(trial.seed),
+                   .coupons = lab::draw_coupon_ratios(trial.seed),
                    .toughness = lab::draw_toughness_parameters(trial.seed),
                    .effects = {}};
   for (const lab::EffectKind& kind : lab::effect_kinds()) {

@@ -46,6 +46,15 @@ material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed) {
           .gamma_per_s = drawn(seed, "eta/gamma_per_s", 2e5, 1e6)};
 }
 
+CouponRatios draw_coupon_ratios(std::uint64_t seed) {
+  constexpr double kLogSd = 0.08;
+  const auto ratio = [seed](std::string_view material) {
+    RandomStream stream(seed, "truth/coupons/" + std::string(material));
+    return std::exp(kLogSd * stream.normal());
+  };
+  return {.soft = ratio("soft"), .rigid = ratio("rigid"), .interface = ratio("interface")};
+}
+
 double draw_effect_value(std::uint64_t seed, const EffectKind& kind) {
   RandomStream stream(seed, std::string("truth/effect/") + std::string(kind.name));
   const double magnitude = log_uniform(stream, kind.drawn_minimum, kind.drawn_maximum);

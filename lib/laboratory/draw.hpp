@@ -13,6 +13,9 @@ namespace nacre::laboratory {
 material::ModulusParameters draw_modulus_parameters(std::uint64_t seed);
 material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed);
 
+/// Lognormal about 1, standard deviation 0.08 of the logarithm, each by itself.
+CouponRatios draw_coupon_ratios(std::uint64_t seed);
+
 /// None, one or two effects (30, 50, 20 %) with magnitudes that matter.
 HiddenEffects draw_effects(std::uint64_t seed);
 /// The magnitude that this seed gives to one effect, and to its second number.

@@ -38,11 +38,20 @@ Making making_of(const Experiment& experiment, int specimen = 0) {
           .specimen = specimen};
 }
 
+/// The truth as homogeneous specimens show it: with the constants of their own materials.
+Truth as_coupons(Truth truth) {
+  truth.modulus.e_tb_pa *= truth.coupons.soft;
+  truth.modulus.e_vw_pa *= truth.coupons.rigid;
+  truth.modulus.e_if_pa *= truth.coupons.interface;
+  return truth;
+}
+
 Result<TrueResponse> respond_modulus(const Truth& truth, const Experiment& experiment) {
   if (const pattern::Mixture* mixture = experiment.design.mixture()) {
-    return TrueResponse{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
-                        .curve = {},
-                        .remark = {}};
+    return TrueResponse{
+        .modulus_pa = homogeneous_modulus(as_coupons(truth), mixture->rigid_fraction, making_of(experiment)),
+        .curve = {},
+        .remark = {}};
   }
   const SpecimenSize size = specimen_size(TestKind::modulus, experiment.fidelity);
   const Result<double> modulus_pa =
@@ -93,9 +102,10 @@ std::vector<double> coupon_strains(const Truth& truth, const Experiment& experim
   return tester::strain_path(loading, way / (kCurvePoints - 1));
 }
 
-Result<TrueResponse> respond_tensile(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond_tensile(const Truth& in_layouts, const Experiment& experiment) {
   const pattern::Mixture* mixture = experiment.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
+  const Truth truth = as_coupons(in_layouts);
   TrueResponse response;
   const std::vector<double> strains = coupon_strains(truth, experiment, mixture->rigid_fraction);
   if (hides_a_curve(truth.effects)) {

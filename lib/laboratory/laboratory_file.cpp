@@ -227,6 +227,11 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
   truth.modulus = material::modulus_from_vector(read_constants(
       modulus, material::modulus_parameter_names(), material::to_vector(draw_modulus_parameters(truth.seed))));
   modulus.refuse_others();
+  Section coupons(top.table("coupons"), source, "coupons.");
+  truth.coupons = {.soft = coupons.number("soft", 0.1, 10.0, 1.0),
+                   .rigid = coupons.number("rigid", 0.1, 10.0, 1.0),
+                   .interface = coupons.number("interface", 0.1, 10.0, 1.0)};
+  coupons.refuse_others();
   read_failure(toughness, top.table("toughness"), source, truth);
   const material::ToughnessParameters drawn =
       material::with_strengths(draw_toughness_parameters(truth.seed), material::strength_ratio(truth.criterion));
@@ -259,6 +264,10 @@ std::string to_toml(const Truth& truth) {
                         kind.name, value);
   }
   text += constants_toml("modulus", material::modulus_parameter_names(), material::to_vector(truth.modulus));
+  if (truth.coupons != CouponRatios{})
+    text += fmt::format(
+        "\n[coupons]  # E of homogeneous specimens over E in layouts\nsoft = {}\nrigid = {}\ninterface = {}\n",
+        truth.coupons.soft, truth.coupons.rigid, truth.coupons.interface);
   text += constants_toml("toughness", material::toughness_parameter_names(), material::to_vector(truth.toughness));
   text += material::failure_toml(truth.criterion, truth.strength_cv);
   return text;

@@ -56,13 +56,21 @@ struct HiddenEffects {
   bool operator==(const HiddenEffects&) const = default;
 };
 
+/// E of homogeneous specimens over E of the same material in a layout (thesis 3.2.4: voxels do not have bulk
+/// constants).
+struct CouponRatios {
+  double soft = 1.0, rigid = 1.0, interface = 1.0;
+  bool operator==(const CouponRatios&) const = default;
+};
+
 /// The hidden truth of one laboratory.
 struct Truth {
   std::uint64_t seed = 1;
   tester::Fidelity fidelity = tester::Fidelity::full;
   int replicates = 4;
   ReplicateNoise noise;
-  material::ModulusParameters modulus;
+  material::ModulusParameters modulus;  ///< of layouts
+  CouponRatios coupons;
   material::ToughnessParameters toughness;  ///< thresholds as the testers mean them: at element size h
   material::FailureCriterion criterion = {};
   double strength_cv = 0.0;  ///< of W between voxels of half a pixel, by a law of its own (Weibull)

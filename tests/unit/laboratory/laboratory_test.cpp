@@ -14,6 +14,7 @@
 #include "laboratory/laboratory_file.hpp"
 #include "laboratory/measure_set.hpp"
 #include "measurement/read_set.hpp"
+#include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::laboratory {
@@ -182,6 +183,22 @@ TEST(Respond, AHomogeneousModulusFollowsTheMixtureLaw) {
   EXPECT_NEAR(modulus(0.5) / truth.modulus.e_if_pa, 1.0, 1e-12);
   EXPECT_NEAR(modulus(1.0) / truth.modulus.e_vw_pa, 1.0, 1e-12);
   EXPECT_NEAR(modulus(0.75) / std::sqrt(truth.modulus.e_if_pa * truth.modulus.e_vw_pa), 1.0, 1e-12);
+}
+
+// Voxels in a layout differ from the bulk by what [coupons] says; layouts do not know it.
+TEST(Respond, HomogeneousSpecimensHaveConstantsOfTheirOwn) {
+  const Truth plain = plain_truth();
+  Truth apart = plain;
+  apart.coupons = {.soft = 1.2, .rigid = 0.9, .interface = 1.5};
+  const auto modulus = [](const Truth& truth, const pattern::Design& design) {
+    return respond(truth, {.design = design, .test = TestKind::modulus, .conditions = {}, .fidelity = {}})->modulus_pa;
+  };
+  EXPECT_NEAR(modulus(apart, pattern::Mixture{0.0}) / modulus(plain, pattern::Mixture{0.0}), 1.2, 1e-12);
+  EXPECT_NEAR(modulus(apart, pattern::Mixture{0.5}) / modulus(plain, pattern::Mixture{0.5}), 1.5, 1e-12);
+  EXPECT_NEAR(modulus(apart, pattern::Mixture{1.0}) / modulus(plain, pattern::Mixture{1.0}), 0.9, 1e-12);
+  EXPECT_EQ(modulus(apart, pattern::checkerboard(5)), modulus(plain, pattern::checkerboard(5)));
+  const Experiment pull{.design = pattern::Mixture{1.0}, .test = TestKind::tensile, .conditions = {}, .fidelity = {}};
+  EXPECT_LT(respond(apart, pull)->curve.stress_pa.at(10), respond(plain, pull)->curve.stress_pa.at(10));
 }
 
 TEST(Respond, RefusesWhatMakesNoSense) {
