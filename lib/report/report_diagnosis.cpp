@@ -31,9 +31,9 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
       .columns = {
           {"", "candidate effect"},
           {"", "status",
-           "possible cause: explains the data. ruled out: others explain them better, or nothing is to be explained. "
-           "not visible in these data: it may act, these specimens would not show it. does not apply: these tests "
-           "cannot show it"},
+           "explains it: with this effect the model agrees with the measurements. no sign of it: other effects explain "
+           "them better, or nothing is to be explained. these tests cannot say: it may act, these specimens would not "
+           "show it"},
           {"", "improvement of fit (chi squared)",
            "How much chi squared falls when the effect joins the refitted base model"},
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
@@ -82,10 +82,9 @@ std::string verdict_in_words(const std::string& verdict) {
 }
 
 std::string status_in_words(std::string_view status) {
-  if (status == "in_set") return "possible cause";
-  if (status == "excluded") return "ruled out";
-  if (status == "invisible") return "not visible in these data";
-  if (status == "not_applicable") return "does not apply";
+  if (status == "in_set") return "explains it";
+  if (status == "excluded") return "no sign of it";
+  if (status == "invisible" || status == "not_applicable") return "these tests cannot say";
   return std::string(status);
 }
 
@@ -96,11 +95,13 @@ Exhibit diagnosis_exhibit(const run::RunRecord& run) {
     if (!round->second.diagnosis) continue;
     const wire::Diagnosis& d = *round->second.diagnosis;
     // The summary says what a named effect gains on new designs (diagnosis::gain_in_words): no second figure here.
-    Exhibit part{.id = "", .heading = fmt::format("Round {}: {}", round->first, verdict_in_words(d.verdict))};
-    part.notes.push_back(escaped(d.summary));
     // A verdict that the calibration of the same round speaks against does not stand alone.
-    if (const std::string against = run::misfit_beside_verdict(round->second); !against.empty())
-      part.warnings.push_back(escaped(against));
+    const std::string against = run::misfit_beside_verdict(round->second);
+    const std::string verdict = against.empty() ? verdict_in_words(d.verdict)
+                                                : "nothing is found missing, and yet the calibration does not fit";
+    Exhibit part{.id = "", .heading = fmt::format("Round {}: {}", round->first, verdict)};
+    part.notes.push_back(escaped(d.summary));
+    if (!against.empty()) part.warnings.push_back(escaped(against));
     part.tables = {effect_table(run::named_effects(d)), candidate_table(d.candidates)};
     exhibit.parts.push_back(std::move(part));
   }

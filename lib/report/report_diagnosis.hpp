@@ -14,7 +14,8 @@ Exhibit diagnosis_exhibit(const run::RunRecord& run);
 /// A verdict of a diagnosis, as its wire value, in plain words.
 std::string verdict_in_words(const std::string& verdict);
 
-/// The status of a candidate effect, as its wire value, in plain words: possible cause, ruled out, ...
+/// The status of a candidate effect, as its wire value, in plain words: explains it, no sign of it, these tests
+/// cannot say.
 std::string status_in_words(std::string_view status);
 
 }  // namespace nacre::report

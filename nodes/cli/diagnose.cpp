@@ -72,7 +72,7 @@ void print_candidates(const diagnosis::Diagnosis& d) {
                report::status_in_words(c.status), c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
                size_or_dash(c.smallest_seen), c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
-  if (!unseen.empty()) fmt::print("  does not apply, these tests cannot show it: {}\n", unseen);
+  if (!unseen.empty()) fmt::print("  these tests cannot say: {}\n", unseen);
 }
 
 /// What the residuals follow, and which tests would tell more.

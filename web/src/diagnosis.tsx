@@ -19,8 +19,14 @@ const VERDICTS: Record<string, string> = {
 /** Too few measurements for any verdict: nothing was considered. */
 const isUndecided = (d: Diagnosis) => d.verdict === "ambiguous" && d.candidates.length === 0;
 
-const headline = (d: Diagnosis) =>
-  isUndecided(d) ? "There are too few measurements for a diagnosis yet" : (VERDICTS[d.verdict] ?? words(d.verdict));
+/** Nothing is missing by the diagnosis, and yet the calibration of the round does not fit. */
+const isDoubted = (d: Diagnosis) => d.verdict === "base_sufficient" && d.against !== "";
+
+function headline(d: Diagnosis): string {
+  if (isUndecided(d)) return "There are too few measurements for a diagnosis yet";
+  if (isDoubted(d)) return "The diagnosis finds nothing missing, and yet the calibration does not fit";
+  return VERDICTS[d.verdict] ?? words(d.verdict);
+}
 
 function noNextTest(d: Diagnosis): string {
   if (isUndecided(d)) return "None is proposed before there are more measurements.";
@@ -29,13 +35,13 @@ function noNextTest(d: Diagnosis): string {
 
 /** What a status means. */
 const STATUS: Record<string, { text: string; hint: string }> = {
-  in_set: { text: "explains the data", hint: "With this effect the model agrees with the measurements." },
-  excluded: { text: "excluded", hint: "The measurements show no sign of it, or another effect explains them better." },
+  in_set: { text: "explains it", hint: "With this effect the model agrees with the measurements." },
+  excluded: { text: "no sign of it", hint: "The measurements show no sign of it, or another effect explains them better." },
   invisible: {
-    text: "invisible in these data",
+    text: "these tests cannot say",
     hint: "Its signature is too weak to be told from noise. It may be there all the same.",
   },
-  not_applicable: { text: "not testable here", hint: "These specimens and tests cannot show it." },
+  not_applicable: { text: "these tests cannot say", hint: "No specimen and test of this set would show it." },
 };
 
 /** A number of a candidate effect; a dash for one that these specimens cannot show. */
@@ -267,7 +273,7 @@ function DiagnosisOf({ round, rounds, tabs }: { round: number; rounds: Rounds; t
   const { value: diagnosis, problem } = useReading<Diagnosis>("/api/diagnosis", { round }, rounds);
   return (
     <>
-      <section class={`panel verdict ${diagnosis?.verdict ?? ""}`}>
+      <section class={`panel verdict ${diagnosis && isDoubted(diagnosis) ? "doubted" : (diagnosis?.verdict ?? "")}`}>
         <div class="panel-head">
           <p class="eyebrow">diagnosis</p>
           {tabs}
