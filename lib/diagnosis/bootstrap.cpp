@@ -53,13 +53,14 @@ double DrawStatistics::largest_contrast() const {
 
 std::vector<std::size_t> parts_of_rows(const Observations& observations) {
   constexpr std::size_t kTests = 3;
-  std::map<std::string, std::size_t> materials;
+  std::map<std::string, std::size_t> further;
   std::vector<std::size_t> parts;
   for (const DataRow& row : observations.rows) {
     parts.push_back(static_cast<std::size_t>(row.test));
-    if (row.group < 0 || row.test != tester::TestKind::tensile) continue;
-    const std::string material = observations.groups[row.group].material();
-    parts.back() = materials.emplace(material, kTests + materials.size()).first->second;
+    const bool of_coupons = row.group >= 0 && row.test == tester::TestKind::tensile;
+    if (!of_coupons && row.kind != RowKind::constant) continue;
+    const std::string name = of_coupons ? observations.groups[row.group].material() : "constants";
+    parts.back() = further.emplace(name, kTests + further.size()).first->second;
   }
   return parts;
 }

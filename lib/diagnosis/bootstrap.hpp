@@ -39,7 +39,8 @@ struct Anchor {
 };
 
 /// Parts that are independent of each other, of each row: moduli, fracture tests, coupons' history, and behind them
-/// coupons of one material each, in the order of the rows. Rows of one part share a scatter.
+/// coupons of one material each and the constants of layouts against those of coupons, in the order of the rows. Rows
+/// of one part share a scatter.
 std::vector<std::size_t> parts_of_rows(const Observations& observations);
 
 /// Data with their noise model: the values of the rows and the covariance estimated from these data themselves.

@@ -190,6 +190,14 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];
     if (row.kind == RowKind::mean || row.kind == RowKind::batch_rest) continue;
+    if (row.kind == RowKind::constant) {
+      const std::string_view material = kConstantMaterials[row.material];
+      directions.push_back(
+          {fmt::format("E of the {} material in layouts against that of {} specimens", material, material),
+           {row.feature, row.test, "", row.material},
+           Eigen::VectorXd::Unit(observations.size(), i)});
+      continue;
+    }
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
                                       row.kind == RowKind::batch ? "one batch" : "one specimen printed"),
                           {row.feature, row.test, ""},

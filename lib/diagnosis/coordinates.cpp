@@ -1,6 +1,7 @@
 #include "diagnosis/coordinates.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -17,12 +18,9 @@ constexpr double kWidePrior = 0.5;
 /// emulator is trained no farther.
 constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
 
-struct Bounds {
-  double low = 0.0, high = 0.0;
-};
+}  // namespace
 
-/// Range widened three-fold about its middle (docs/METHODS.md): moduli in log scale, ratios kept physical.
-Bounds widened(const material::ParameterRange& range, bool logarithmic) {
+Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic) {
   if (logarithmic) {
     const double half = 1.5 * std::log(range.maximum / range.minimum),
                  middle = 0.5 * std::log(range.maximum * range.minimum);
@@ -32,15 +30,13 @@ Bounds widened(const material::ParameterRange& range, bool logarithmic) {
   return {std::max(0.02, middle - half), std::min(0.495, middle + half)};
 }
 
-}  // namespace
-
 CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects)
     : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
       const bool logarithmic = i < 3;
-      const Bounds b = widened(basis.ranges.modulus(target)[i], logarithmic);
+      const Bounds b = searched_bounds(basis.ranges.modulus(target)[i], logarithmic);
       base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
     }
   };
@@ -97,17 +93,24 @@ double CoordinateMap::value(int i, double u) const {
   return i >= base_count() ? material::value_at_strength(parameter_of(i), u) : plain(base_[i], u);
 }
 
-std::vector<std::string> CoordinateMap::moduli_at_bounds(const Eigen::VectorXd& u) const {
+std::vector<ModulusAtBound> CoordinateMap::moduli_at_bounds(const Eigen::VectorXd& u) const {
   constexpr double kEnd = 1e-3;
   constexpr int kModuli = 3;
-  std::vector<std::string> found;
+  std::vector<ModulusAtBound> found;
   for (int i = 0; i < base_count(); ++i) {
     const BaseCoordinate& c = base_[i];
     if (c.block == Block::toughness || c.index >= kModuli || std::min(u[i], 1.0 - u[i]) > kEnd) continue;
-    found.push_back(fmt::format("{} = {:.3g}{}", material::modulus_parameter_names()[c.index], value(i, u[i]),
-                                c.block == Block::coupon ? " of coupons" : ""));
+    found.push_back({c.index, value(i, u[i]), c.block == Block::coupon});
   }
   return found;
+}
+
+std::string in_words(const std::vector<ModulusAtBound>& moduli) {
+  std::vector<std::string> words;
+  for (const ModulusAtBound& each : moduli)
+    words.push_back(fmt::format("{} = {:.3g} Pa{}", material::modulus_parameter_names()[each.material], each.modulus_pa,
+                                each.of_coupons ? " of coupons" : ""));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {

@@ -30,6 +30,22 @@ struct EffectCoordinate {
   int parameter = 0;
 };
 
+/// Bounds of a search: the range widened three-fold about its middle, of the logarithm where `logarithmic` (moduli);
+/// ratios are kept physical.
+struct Bounds {
+  double low = 0.0, high = 0.0;
+};
+Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic);
+
+/// A Young's modulus of a fit that is at its bound: no prior would leave it there, the ranges are those of other inks.
+struct ModulusAtBound {
+  int material = 0;  ///< soft, rigid, interface
+  double modulus_pa = 0.0;
+  bool of_coupons = false;  ///< in homogeneous specimens, else in layouts
+};
+/// "e_vw_pa = 1.39e+09 Pa, e_tb_pa = 3e+05 Pa of coupons"
+std::string in_words(const std::vector<ModulusAtBound>& moduli);
+
 /// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a
 /// factor e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.
 class CoordinateMap {
@@ -42,9 +58,8 @@ class CoordinateMap {
   double upper(int i) const;
   /// Standard deviation of the prior of a base coordinate about its middle, 0.5.
   double prior_sd(int i) const { return base_[i].prior_sd; }
-  /// Young's moduli at their bounds, `e_vw_pa = 1.39e+09` (`... of coupons`): no prior would leave them there, the
-  /// ranges are those of other inks.
-  std::vector<std::string> moduli_at_bounds(const Eigen::VectorXd& u) const;
+  /// Young's moduli at their bounds.
+  std::vector<ModulusAtBound> moduli_at_bounds(const Eigen::VectorXd& u) const;
   /// Physical value of coordinate i at u.
   double value(int i, double u) const;
   /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.

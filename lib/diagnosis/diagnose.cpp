@@ -27,6 +27,7 @@ std::string specimens_in_words(const Observations& observations, std::size_t par
   const auto found = std::ranges::find(parts, part);
   if (found == parts.end()) return "";
   const DataRow& row = observations.rows[found - parts.begin()];
+  if (row.kind == RowKind::constant) return "constants of layouts against those of coupons";
   if (row.test == tester::TestKind::modulus) return "moduli";
   if (row.test == tester::TestKind::toughness) return "notched specimens";
   if (row.group < 0) return "coupons";
@@ -179,15 +180,18 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
   report(0.95, "choosing the next experiments");
+  const CoordinateMap map = evidence.model.map(decided.effects);
+  const std::vector<ModulusAtBound> at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.next_experiments = next_experiments(evidence, models_to_separate(evidence, decision), kNextExperiments);
+  if (!decision.untold.empty()) diagnosis.next_experiments = specimens_of_materials(observations, decision.untold);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "discretisation error of three specimens");
   if (settings.check_discretisation)
     diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity);
-  const CoordinateMap map(evidence.model.basis(), decided.effects);
-  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations, map.moduli_at_bounds(decided.u),
-                                            groups_out_of_line(specimens));
+  diagnosis.summary =
+      summary_with_cautions(diagnosis, decision, observations, at_bounds,
+                            other_materials(observations, settings.ranges), groups_out_of_line(specimens));
   report(1.0, "done");
   return diagnosis;
 }

@@ -64,7 +64,8 @@ struct CandidateEffect {
 struct ContrastView {
   Feature feature = Feature::log_modulus;
   tester::TestKind test = tester::TestKind::modulus;
-  std::string against;  ///< a descriptor, kPredictedLevel, or empty: the whole feature, or a row of history
+  std::string against;  ///< a descriptor, kPredictedLevel, or empty: the whole feature, or a row of no specimen
+  std::optional<int> material = {};  ///< E of this material in layouts against coupons: index in kConstantMaterials
 };
 /// The base model's own prediction as the descriptor of a contrast.
 inline constexpr std::string_view kPredictedLevel = "level";

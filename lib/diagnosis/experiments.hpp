@@ -14,4 +14,8 @@ namespace nacre::diagnosis {
 std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
                                              int count, int replicates = 3);
 
+/// Moduli of homogeneous specimens of these materials, which tell whether it is another material or an effect.
+std::vector<NextExperiment> specimens_of_materials(const Observations& observations,
+                                                   const std::vector<ModulusAtBound>& moduli, int replicates = 3);
+
 }  // namespace nacre::diagnosis

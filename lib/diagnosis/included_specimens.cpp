@@ -25,14 +25,8 @@ IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimen
   const bool layouts =
       std::ranges::any_of(specimens, [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
   const auto homogeneous = std::ranges::count_if(specimens, is_homogeneous_modulus);
-  const bool homogeneous_left_out = layouts && !coupons;
-  if (homogeneous > 0 && homogeneous_left_out)
-    part.left_out = fmt::format(
-        " {} moduli of homogeneous specimens were left out: without tensile coupons they carry no information on "
-        "layouts.",
-        homogeneous);
   const bool something_else =
-      coupons || std::ranges::any_of(specimens, is_layout_modulus) || (homogeneous > 0 && !homogeneous_left_out);
+      coupons || std::ranges::any_of(specimens, is_layout_modulus) || (homogeneous > 0 && !layouts);
   if (fracture || !something_else) return part;
   const auto valid =
       std::ranges::count_if(specimens, [](const SpecimenRecord& s) { return s.valid && is_fracture(s); });

@@ -15,8 +15,8 @@ struct IncludedSpecimens {
 };
 
 /// Fracture tests are included when `fracture` asks for them, or when no other valid specimen would be: their
-/// thresholds are not yet proven against the virtual laboratory. A sentence says when observe() leaves homogeneous
-/// moduli out.
+/// thresholds are not yet proven against the virtual laboratory. Moduli of homogeneous specimens alone are no reason to
+/// leave them out where there are layouts.
 IncludedSpecimens included_specimens(const std::vector<measurement::SpecimenRecord>& specimens, bool fracture);
 
 }  // namespace nacre::diagnosis

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "diagnosis/other_materials.hpp"
 #include "tester/modulus.hpp"
 #include "tester/simulation_key.hpp"
 #include "tester/tensile.hpp"
@@ -45,7 +46,12 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
                 const material::ParameterRanges& ranges) {
-  Basis basis{.modulus = false, .toughness = false, .coupon = false, .centre = start, .ranges = ranges};
+  const std::vector<OtherMaterial> others = other_materials(observations, ranges);
+  Basis basis{
+      .modulus = false, .toughness = false, .coupon = false, .centre = start, .ranges = ranges_over(ranges, others)};
+  material::ModulusVector moduli = to_vector(start.modulus);
+  for (const OtherMaterial& other : others) moduli[other.material] = other.modulus_pa;
+  basis.centre.modulus = material::modulus_from_vector(moduli);
   for (const Observation& group : observations.groups) {
     if (group.test == TestKind::toughness)
       basis.toughness = true;
@@ -136,7 +142,7 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
 void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   for (int i = 0; i < observations_.size(); ++i) {
     const DataRow& row = observations_.rows[i];
-    if (row.kind == RowKind::mean) continue;
+    if (row.kind == RowKind::mean || row.kind == RowKind::constant) continue;
     rows[i] = 0.0;
     if (row.kind != RowKind::batch || set.extensions.empty()) continue;
     if (row.test == TestKind::toughness && surface_ != nullptr)
@@ -147,6 +153,16 @@ void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eig
     constexpr double kTypicalPa = 5e8;
     rows[i] = std::log(measurement::observe_modulus(kTypicalPa, set.extensions, {.batch_step = 1.0}) /
                        measurement::observe_modulus(kTypicalPa, set.extensions));
+  }
+}
+
+void FeatureModel::put_constants(const material::ModulusParameters& of_layouts,
+                                 const material::ModulusParameters& of_coupons,
+                                 Eigen::Ref<Eigen::VectorXd> rows) const {
+  const material::ModulusVector layouts = to_vector(of_layouts), coupons = to_vector(of_coupons);
+  for (int i = 0; i < observations_.size(); ++i) {
+    const DataRow& row = observations_.rows[i];
+    if (row.kind == RowKind::constant) rows[i] = std::log(layouts[row.material] / coupons[row.material]);
   }
 }
 
@@ -162,6 +178,7 @@ void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eige
   parallel_for(points, [&](int p) {
     const material::ParameterSet set = map.parameters(u[p]);
     put_history(set, y.col(p));
+    put_constants(set.modulus, map.coupon_parameters(u[p]).modulus, y.col(p));
     if (surface_ == nullptr || !basis_.toughness) return;
     const Eigen::VectorXd values = surface_->predict(set);
     for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[k];

@@ -26,6 +26,7 @@ class FeatureModel {
   FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
                const FractureSurface* surface = nullptr);
   const Basis& basis() const { return basis_; }
+  const FractureSurface* surface() const { return surface_; }
   int size() const { return observations_.size(); }  ///< rows
   CoordinateMap map(std::span<const std::string> effects) const { return CoordinateMap(basis_, effects); }
   CoordinateMap base_map() const { return CoordinateMap(basis_, {}); }
@@ -57,6 +58,8 @@ class FeatureModel {
   void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u,
                       Eigen::Ref<Eigen::MatrixXd> y) const;
   void put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
+  void put_constants(const material::ModulusParameters& of_layouts, const material::ModulusParameters& of_coupons,
+                     Eigen::Ref<Eigen::VectorXd> rows) const;
 
   const Observations& observations_;
   Basis basis_;
@@ -77,7 +80,8 @@ class FeatureModel {
 Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, const std::vector<double>& shown_strain,
                                              const measurement::PrintContext& context = {});
 
-/// Blocks of base constants that these observations need, in `ranges`; constants that are not searched from `start`.
+/// Blocks of base constants that these observations need, in `ranges`, stretched over what specimens of other materials
+/// measured (other_materials.hpp); constants that are not searched from `start`.
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
                 const material::ParameterRanges& ranges);
 

@@ -32,17 +32,6 @@ GroupKey key_of(const SpecimenRecord& specimen) {
       is_unloaded_coupon(specimen)};
 }
 
-bool has_coupons(const std::vector<SpecimenRecord>& specimens) {
-  return std::any_of(specimens.begin(), specimens.end(), [](const SpecimenRecord& s) {
-    return s.valid && s.test == TestKind::tensile && s.design.mixture() && !s.curve.empty();
-  });
-}
-
-bool has_layouts(const std::vector<SpecimenRecord>& specimens) {
-  return std::any_of(specimens.begin(), specimens.end(),
-                     [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
-}
-
 FeatureValues features_of(const SpecimenRecord& specimen) {
   FeatureValues values;
   switch (specimen.test) {
@@ -63,11 +52,11 @@ FeatureValues features_of(const SpecimenRecord& specimen) {
 }
 
 /// Whether specimens of this kind are included.
-bool is_included(const SpecimenRecord& specimen, bool homogeneous_moduli) {
+bool is_included(const SpecimenRecord& specimen) {
   if (!specimen.valid) return false;
   switch (specimen.test) {
     case TestKind::modulus:
-      return specimen.design.layout() != nullptr || homogeneous_moduli;
+      return true;
     case TestKind::toughness:
       return specimen.design.layout() != nullptr;
     case TestKind::tensile:
@@ -153,6 +142,13 @@ Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::Ma
   return scale.asDiagonal() * all * scale.asDiagonal();
 }
 
+/// Whether E of the base materials is told by layouts and by homogeneous specimens.
+bool has_constants_of_both(const std::vector<Observation>& groups) {
+  const auto any = [&](auto is) { return std::ranges::any_of(groups, is); };
+  return any([](const Observation& g) { return g.test == TestKind::modulus && g.design.layout(); }) &&
+         any([](const Observation& g) { return g.design.mixture() != nullptr; });
+}
+
 /// Scatter of every test, and of each material's coupons where their replicates determine it.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
@@ -204,6 +200,8 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
 RowCovariance Observations::row_covariance(int i, int j) const {
   const DataRow &a = rows[i], &b = rows[j];
   RowCovariance covariance;
+  if (a.kind == RowKind::constant && i == j) covariance.fixed = kConstantSd * kConstantSd;
+  if (a.kind == RowKind::constant || b.kind == RowKind::constant) return covariance;
   if (a.test != b.test || a.kind != b.kind) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
   if (a.group == b.group && a.batch == b.batch)
@@ -250,14 +248,13 @@ Eigen::VectorXd Observations::shared_discretisation(const Eigen::VectorXd& resid
 
 Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_discretisation_sd,
                      const FractureDiscretisation& fracture) {
-  const bool homogeneous_moduli = has_coupons(specimens) || !has_layouts(specimens);
   // Replicates in the order of their names: the same bits whatever the order of arrival.
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
   const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
   double last_batch_step = 0.0;
   for (const SpecimenRecord& specimen : nominal) {
-    if (!is_included(specimen, homogeneous_moduli)) continue;
+    if (!is_included(specimen)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
     const double step = contexts[&specimen - nominal.data()].batch_step;
@@ -291,6 +288,15 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       observations.rows.push_back(
           {static_cast<int>(g), static_cast<Feature>(f), RowKind::mean, group.test, 1.0 / group.replicates});
       values.push_back(*group.features[f]);
+    }
+  }
+  if (has_constants_of_both(observations.groups)) {
+    for (int material = 0; material < static_cast<int>(kConstantMaterials.size()); ++material) {
+      observations.rows.push_back({.feature = Feature::log_modulus,
+                                   .kind = RowKind::constant,
+                                   .test = TestKind::modulus,
+                                   .material = material});
+      values.push_back(0.0);
     }
   }
   const std::vector<HistoryRow> history = history_rows(groups);

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/features.hpp"
@@ -33,7 +34,14 @@ enum class RowKind {
   batch,        ///< change of a feature per batch step between replicates of one group, over all groups
   batch_rest,   ///< how far one batch lies off that change, again between replicates of one group
   print_order,  ///< change per specimen printed, inside batches
+  constant,     ///< log of E of a base material in layouts over E of its homogeneous specimens, expected to be 0
 };
+
+/// Standard deviation of a row of RowKind::constant: the +-20 % of Table A.2 about the values of Table A.1, taken for
+/// 90 %.
+inline constexpr double kConstantSd = 0.11;
+/// Materials that have one, in the order of material::ModulusVector.
+inline constexpr std::array<std::string_view, 3> kConstantMaterials = {"soft", "rigid", "interface"};
 
 /// One row of the data.
 struct DataRow {
@@ -44,6 +52,7 @@ struct DataRow {
   double weight = 1.0;      ///< variance of the row over that of a single specimen: 1/replicates of a mean
   std::size_t scatter = 0;  ///< the scatter of its replicates: index in Observations::scatter
   int batch = 0;            ///< with batch_rest: which batch, in the order of their numbers
+  int material = 0;         ///< with constant: index in kConstantMaterials
 };
 
 /// Change of the rows of history if all specimens of one batch have a feature larger by one.
@@ -143,9 +152,10 @@ struct Observations {
                                         const std::vector<Eigen::Index>& rows) const;
 };
 
-/// Groups the valid specimens: moduli and fracture tests of layouts, coupons pulled with a curve. Homogeneous moduli
-/// join only where such coupons are there too, or no layout: voxels do not have bulk constants (thesis 3.2.4). Notched
-/// homogeneous specimens are left out.
+/// Groups the valid specimens: moduli and fracture tests of layouts; of homogeneous ones moduli, and coupons pulled
+/// with a curve. Where moduli of both kinds are there, a row for each base material says that their constants are
+/// alike, and how much voxels may differ from the bulk (thesis 3.2.4). Notched homogeneous specimens are left out:
+/// effective moduli of fracture tests are no bulk constants.
 Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_discretisation_sd,
                      const FractureDiscretisation& fracture);
 

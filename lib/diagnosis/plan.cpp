@@ -282,18 +282,24 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   matrix.signatures = signatures_on(workbench.model(), matrix.base, workbench.effects(), kPlannedSizes);
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
+    const auto is_planned = [&](const Observation& group) {
+      return std::ranges::any_of(alone.groups,
+                                 [&](const Observation& other) {
+                                   return other.design == group.design && other.test == group.test &&
+                                          other.conditions == group.conditions && other.unloaded == group.unloaded;
+                                 }) ||
+             std::ranges::any_of(tests, [&](const PossibleTest& test) { return would_join(test, group); });
+    };
+    // Where the other additions alone are homogeneous, nothing ties the constants of layouts to those of coupons.
+    const bool has_constants = std::ranges::any_of(observations.groups, [&](const Observation& group) {
+      return group.design.mixture() != nullptr && is_planned(group);
+    });
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i) {
       const DataRow& row = observations.rows[i];
-      const auto is_planned = [&](const Observation& other) {
-        const Observation& group = observations.group_of(i);
-        return other.design == group.design && other.test == group.test && other.conditions == group.conditions &&
-               other.unloaded == group.unloaded;
-      };
-      const auto is = [&](const PossibleTest& test) { return would_join(test, observations.group_of(i)); };
-      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is_planned) ||
-          std::any_of(tests.begin(), tests.end(), is))
-        rows.push_back(i);
+      const bool counts =
+          row.kind == RowKind::constant ? has_constants : row.group < 0 || is_planned(observations.group_of(i));
+      if (counts) rows.push_back(i);
     }
     return rows;
   };

@@ -21,6 +21,7 @@ std::string procedure_text(const DiagnosisSettings& settings) {
   text += fmt::format("leads {} {} contrasts {} {}\n", kOwnLead, kCertainLead, kContrastTie, kEvenLead);
   text += fmt::format("signal {} {} (at the named constants) distance {} sizes {}\n", kVisibleSignal, kNameableSignal,
                       kToldApart, fmt::join(kSizes, " "));
+  text += fmt::format("constants {:a}\n", kConstantSd);
   text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
                       settings.floor.mesh_remainder_sd);
   if (settings.ranges != material::thesis_ranges()) text += material::to_csv(settings.ranges);

@@ -37,6 +37,19 @@ std::string size_in_words(const NamedEffect& e) {
   return words;
 }
 
+/// Both readings of a constant that layouts want otherwise than its own specimens; empty where the strongest contrast
+/// is of another kind.
+std::string constants_in_words(const Diagnosis& d) {
+  const std::optional<int> material = d.contrasts.front().view.material;
+  if (!material || !d.base_fit.modulus || !d.base_fit.coupon) return "";
+  const double in_layouts_pa = to_vector(*d.base_fit.modulus)[*material],
+               in_coupons_pa = to_vector(*d.base_fit.coupon)[*material];
+  return fmt::format(
+      " The base fits best with an E of the {} material of {:.3g} Pa in layouts, {:.2f} times that of its own "
+      "specimens: the model lacks an effect, or printing inside a layout changes the material (thesis 3.2.4).",
+      kConstantMaterials[*material], in_layouts_pa, in_layouts_pa / in_coupons_pa);
+}
+
 std::string summary_of(const Diagnosis& d, const Decision& decision) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
@@ -50,6 +63,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       return text;
     }
     case Verdict::ambiguous:
+      if (!decision.untold.empty()) return fmt::format("These data cannot tell: {}.", decision.reason);
       return fmt::format(
           "The base model misfits, and these data cannot tell which effect is the cause: {}.{} The next experiments "
           "would separate them.",
@@ -62,6 +76,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
   if (lines_up(d)) {
     text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name,
                         d.contrasts.front().statistic);
+    text += constants_in_words(d);
   } else {
     text +=
         fmt::format(" The residuals line up with no contrast beyond chance; the largest are those of {}.", d.loudest);
@@ -142,9 +157,11 @@ std::string choice_in_words(const Gain& gain) {
 }
 
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
-                                  const Observations& observations, const std::vector<std::string>& at_bounds,
+                                  const Observations& observations, const std::vector<ModulusAtBound>& at_bounds,
+                                  const std::vector<OtherMaterial>& others,
                                   const std::vector<std::string>& out_of_line) {
-  std::string text = summary_of(diagnosis, decision) + disagreement_in_words(out_of_line, diagnosis.verdict);
+  std::string text =
+      summary_of(diagnosis, decision) + in_words(others) + disagreement_in_words(out_of_line, diagnosis.verdict);
   for (const SanityCheck& check : diagnosis.sanity) {
     // The element size is in the noise already, as the discretisation floor; the other choices ought not to matter at
     // all.
@@ -169,12 +186,12 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
     text +=
         " Caution: replicates agree to a twentieth of a per cent, which no printed specimens do: were their means "
         "typed in for each? Enter the value of every specimen.";
-  if (diagnosis.verdict != Verdict::base_sufficient && !at_bounds.empty()) {
+  if (diagnosis.verdict != Verdict::base_sufficient && decision.untold.empty() && !at_bounds.empty()) {
     text += fmt::format(
         " Caution: {} {} at the bound of the search. Are the inks others than the thesis'? They need ranges of their "
         "own "
         "(docs/FORMATS.md, \"Reference tables\").",
-        fmt::join(at_bounds, ", "), at_bounds.size() == 1 ? "is" : "are");
+        in_words(at_bounds), at_bounds.size() == 1 ? "is" : "are");
   }
   return text + assumption_in_words(observations);
 }

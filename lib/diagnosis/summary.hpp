@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/other_materials.hpp"
 #include "diagnosis/verdict.hpp"
 
 namespace nacre::diagnosis {
@@ -19,9 +20,11 @@ std::string gain_in_words(const Gain& gain);
 std::string choice_in_words(const Gain& gain);
 
 /// Verdict with its reason, gain, and everything that limits what the verdict is worth. `at_bounds`: moduli of the fit
-/// at their bounds (CoordinateMap); `out_of_line`: groups whose replicates do not agree.
+/// at their bounds (CoordinateMap); `others`: materials that are none of the inks; `out_of_line`: groups whose
+/// replicates do not agree.
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
-                                  const Observations& observations, const std::vector<std::string>& at_bounds,
+                                  const Observations& observations, const std::vector<ModulusAtBound>& at_bounds,
+                                  const std::vector<OtherMaterial>& others,
                                   const std::vector<std::string>& out_of_line);
 
 }  // namespace nacre::diagnosis

@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/discrepancy_model.hpp"
+#include "diagnosis/other_materials.hpp"
 #include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
@@ -294,9 +295,52 @@ std::vector<double> chances_of_misfit(const Evidence& evidence, std::size_t best
   return chances;
 }
 
-}  // namespace
+/// Base materials whose E only layouts tell, and which those want beyond the bounds of the search.
+std::vector<ModulusAtBound> untold_moduli_at_bounds(const Evidence& evidence) {
+  std::vector<ModulusAtBound> moduli = evidence.model.base_map().moduli_at_bounds(evidence.base.fit.u);
+  std::erase_if(moduli, [&](const ModulusAtBound& each) {
+    return each.of_coupons || is_told_by_own_specimens(evidence.observations, each.material);
+  });
+  return moduli;
+}
 
-Decision decide(Evidence& evidence) {
+/// The base where these moduli are searched three times as far; nothing where it misfits there too.
+std::optional<FittedModel> base_of_other_materials(const Evidence& evidence,
+                                                   const std::vector<ModulusAtBound>& moduli) {
+  Basis basis = evidence.model.basis();
+  for (const ModulusAtBound& each : moduli) {
+    material::ParameterRange& range = basis.ranges.microstructure_modulus[each.material];
+    const double ratio = range.maximum / range.minimum;
+    range.minimum /= ratio;
+    range.maximum *= ratio;
+  }
+  const FeatureModel wider(evidence.observations, basis, evidence.settings.fidelity, evidence.model.surface());
+  FittedModel fit =
+      fit_model(wider, evidence.observations, {}, wider.base_map().coordinates(evidence.base.fit.parameters));
+  if (chance_of_misfit(evidence, fit) < evidence.settings.unexplained_level) return std::nullopt;
+  return fit;
+}
+
+/// Another material or a missing effect: layouts alone cannot tell. Empty where no constant of another material makes
+/// the base fit.
+std::optional<Decision> decided_for_its_own_specimens(const Evidence& evidence, Decision decision) {
+  std::vector<ModulusAtBound> moduli = untold_moduli_at_bounds(evidence);
+  if (moduli.empty()) return std::nullopt;
+  const std::optional<FittedModel> fit = base_of_other_materials(evidence, moduli);
+  if (!fit) return std::nullopt;
+  const material::ModulusVector found = to_vector(fit->parameters.modulus);
+  for (ModulusAtBound& each : moduli) each.modulus_pa = found[each.material];
+  decision.verdict = Verdict::ambiguous;
+  decision.partial.reset();
+  decision.reason = fmt::format(
+      "the base model fits with {}, beyond three times the range of these inks: it is another material, which needs "
+      "ranges of its own, or an effect is missing",
+      in_words(moduli));
+  decision.untold = std::move(moduli);
+  return decision;
+}
+
+Decision decide_among_effects(Evidence& evidence) {
   const auto report = [&](double share, std::string_view phase) {
     if (evidence.settings.progress) evidence.settings.progress(share, phase);
   };
@@ -338,7 +382,7 @@ Decision decide(Evidence& evidence) {
   }
   report(0.9, "fitting pairs of effects");
   const std::optional<std::vector<FittedModel>> pairs = pairs_of_best(evidence);
-  if (!pairs) return decide(evidence);
+  if (!pairs) return decide_among_effects(evidence);
   std::vector<double> pair_p;
   for (const FittedModel& pair : *pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
   const bool some_pair_fits =
@@ -354,6 +398,15 @@ Decision decide(Evidence& evidence) {
   }
   return settled(evidence, std::move(decision), std::move(possible),
                  "no single effect explains the data, these two together do");
+}
+
+}  // namespace
+
+Decision decide(Evidence& evidence) {
+  Decision decision = decide_among_effects(evidence);
+  if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;
+  if (auto other = decided_for_its_own_specimens(evidence, decision)) return *std::move(other);
+  return decision;
 }
 
 }  // namespace nacre::diagnosis

@@ -21,9 +21,11 @@ struct Decision {
   double p_misfit = 1.0;
   double p_outside = 1.0;  ///< chance that an unmodelled cause would give a name as surely (discrepancy_model.hpp); 1
                            ///< when not tested
-  std::vector<Contrast> contrasts;  ///< of the base model's residuals, strongest first
-  std::size_t loudest_part = 0;     ///< of the rows, where the base is farthest off (Anchor::parts)
-  std::string reason;               ///< the step that decided, in words
+  std::vector<Contrast> contrasts;     ///< of the base model's residuals, strongest first
+  std::size_t loudest_part = 0;        ///< of the rows, where the base is farthest off (Anchor::parts)
+  std::vector<ModulusAtBound> untold;  ///< where specimens of these materials would decide between another material
+                                       ///< and a missing effect: `ambiguous`, no model possible
+  std::string reason;                  ///< the step that decided, in words
 };
 
 /// Select, keep the set of models that the data cannot distinguish, or say that none fits. A single effect that fits

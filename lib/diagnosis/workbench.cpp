@@ -71,8 +71,8 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
   std::vector<Eigen::Index> rows(observations.size());
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  const bool moduli_alone =
-      std::ranges::all_of(rows, [&](Eigen::Index row) { return is_modulus_of_layout(observations, row); });
+  const bool moduli_alone = std::ranges::all_of(
+      observations.groups, [](const Observation& group) { return group.test == tester::TestKind::modulus; });
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
     if (moduli_alone && !is_identified_by_moduli(effect)) continue;

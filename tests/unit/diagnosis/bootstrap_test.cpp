@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/candidate_effects.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 
@@ -17,8 +18,7 @@ Observations two_tests() {
   Observations observations = observe(specimens, 0.003, {});
   observations.discretisation_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[i].test == tester::TestKind::modulus)
-      observations.discretisation_shared(i, 0) = 0.01 * (1 + i % 3);
+    if (is_modulus_of_layout(observations, i)) observations.discretisation_shared(i, 0) = 0.01 * (1 + i % 3);
   return observations;
 }
 

@@ -54,6 +54,25 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   return specimens;
 }
 
+/// Moduli of homogeneous soft, rigid and interface specimens of these materials, with lognormal replicate noise.
+inline std::vector<measurement::SpecimenRecord> synthetic_base_materials(const material::ParameterSet& truth,
+                                                                         int replicates = 3, double noise_sd = 0.015) {
+  RandomStream noise(7, "test/base materials");
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const double fraction : {0.0, 0.5, 1.0}) {
+    for (int r = 0; r < replicates; ++r) {
+      measurement::SpecimenRecord specimen;
+      specimen.design = pattern::Mixture{fraction};
+      specimen.specimen = specimen.design.name() + "-" + std::to_string(r);
+      specimen.modulus_pa =
+          tester::test_modulus({specimen.design, truth, {}, tester::Fidelity::tiny}).value().modulus_pa *
+          std::exp(noise_sd * noise.normal());
+      specimens.push_back(specimen);
+    }
+  }
+  return specimens;
+}
+
 inline std::vector<double> pulled_to_two_percent() {
   std::vector<double> strains;
   for (int i = 0; i <= 60; ++i) strains.push_back(0.02 * i / 60);
