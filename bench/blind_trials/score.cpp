@@ -106,6 +106,8 @@ std::vector<TrialRate> rates() {
       {"unmodelled cause: a name", of_kind("outside"), has_verdict("named"), "<= 3 %"},
       {"evenly along one condition, SNR >= 8: unexplained", visible_of_kind("even"), has_verdict("unexplained"),
        ">= 90 %"},
+      {"smooth distortion of the moduli: a name", of_kind("distorted"), has_verdict("named"), "0"},
+      {"smooth distortion of the moduli: base sufficient", of_kind("distorted"), has_verdict("base_sufficient"), ""},
       {"evenly along one condition: a name", of_kind("even"), has_verdict("named"), "<= 3 %"},
       {"another form of a known effect: a name of another family", of_kind("form"), named_of_another_family, ""},
       {"another form, SNR >= 8: its family named", visible_of_kind("form"), right_family, ""},

@@ -41,6 +41,8 @@ constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cau
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
 
 /// Whether rate and batch change together: all fast coupons are of the second batch, all slow ones of the first.
+/// Layouts that are neither turned nor accompanied by coupons.
+bool is_upright(const BlindTrial& trial) { return trial.kind == "alike" || trial.kind == "distorted"; }
 bool is_pair(const BlindTrial& trial) { return trial.kind == "pair" || trial.kind == "resolved"; }
 
 lab::ReplicateNoise noise_of(const BlindTrial& trial) {
@@ -198,6 +200,24 @@ std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const la
   return text;
 }
 
+/// Shown modulus over true one, of a modulus that is this share of the largest: powers 1/2 to 3 of either sign, or one
+/// that saturates. A factor linear in E would be a machine's compliance to first order.
+double distortion(const BlindTrial& trial, double share) {
+  constexpr std::array kPowers = {0.5, 1.5, 2.0, 3.0};
+  RandomStream random(trial.seed, "trial/distortion");
+  const int form = random.index(static_cast<int>(kPowers.size()) + 1);
+  const double size = (trial.large ? 0.25 : 0.12) * (random.index(2) == 0 ? -1.0 : 1.0);
+  const bool saturates = form == static_cast<int>(kPowers.size());
+  return 1.0 + size * (saturates ? std::tanh(5.0 * share) : std::pow(share, kPowers[form]));
+}
+
+void distort(const BlindTrial& trial, Specimens& records) {
+  double largest_pa = 0.0;
+  for (const auto& record : records) largest_pa = std::max(largest_pa, record.modulus_pa.value_or(0.0));
+  for (auto& record : records)
+    if (record.modulus_pa) *record.modulus_pa *= distortion(trial, *record.modulus_pa / largest_pa);
+}
+
 }  // namespace
 
 std::vector<BlindTrial> all_trials(const TrialOptions& options) {
@@ -243,6 +263,7 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");
   add_in_turn("form", forms, options.forms);
   add_all_sizes("even", even);
+  for (int i = 0; i < options.distorted; ++i) add("distorted", "moduli", {}, i % 2 == 0, i / 2 % 2 == 1);
   return trials;
 }
 
@@ -276,7 +297,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
       experiments.push_back({.design = layout, .test = test, .conditions = conditions, .fidelity = options.fidelity});
     };
     for (const pattern::Pattern& each : patterns) add(each, {});
-    if (trial.kind == "alike") continue;
+    if (is_upright(trial)) continue;
     for (int i = 0; i < kTwins; ++i) add(patterns[i], {.orientation_deg = 90.0});
     for (int i = kTwins; i < kTwins + 2; ++i) {
       tester::TestConditions faster, thinner;
@@ -287,7 +308,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
     }
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
-  if (trial.kind == "alike") return experiments;
+  if (is_upright(trial)) return experiments;
   const double rate_per_s = tester::TestConditions{}.strain_rate_per_s,
                rates_per_s[] = {rate_per_s, kSecondRate * rate_per_s};
   const std::vector<lab::Experiment> coupons = pulled_coupons(kCouponFractions, rates_per_s, options.fidelity);
@@ -314,6 +335,7 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
     records[i] = lab::record_specimen(truth, experiments[q], responses[q],
                                       {records[i].specimen, records[i].batch, records[i].print_order});
   }
+  if (trial.kind == "distorted") distort(trial, records);
   fs::create_directories(folder);
   measurement::write_measurement_set(folder / "set", records);
   write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);

@@ -15,7 +15,7 @@ namespace nacre::blind_trials {
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
 struct BlindTrial {
   std::string name;  ///< unique, a file name
-  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even
+  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even, distorted
   std::uint64_t seed = 1;
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
@@ -25,7 +25,7 @@ struct BlindTrial {
 struct TrialOptions {
   tester::Fidelity fidelity = tester::Fidelity::tiny;
   bool fracture = false;  ///< toughness specimens besides the moduli
-  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15;
+  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15, distorted = 60;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
@@ -40,7 +40,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options);
 /// Pairs cannot be distinguished: coupons at two rates, every fast one of the second batch; for those to be resolved,
 /// the tests that the diagnosis orders are printed in a third batch. Kind `outside`: eight unmodelled causes; `form`:
 /// five known effects in another functional form, whose family is the right name; `even`: unmodelled causes that act on
-/// all turned, or all thin, specimens by one factor.
+/// all turned, or all thin, specimens by one factor. Kind `distorted`: moduli that the machine shows by a smooth law of
+/// their own size, on upright layouts alone.
 std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// The truth of a trial's laboratory.

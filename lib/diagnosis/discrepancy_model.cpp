@@ -34,8 +34,8 @@ Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix
   return scale.asDiagonal() * matrix * scale.asDiagonal();
 }
 
-/// Residuals of one data set with the base's coordinates integrated out (their prior is Gaussian), under one covariance
-/// of the noise.
+/// Residuals of one data set with the anchor's coordinates integrated out, under one covariance of the noise. The prior
+/// of constants is Gaussian; that of an effect has the variance of its range, about the fit.
 struct Marginal {
   Eigen::VectorXd residual;    ///< from the middle of the prior
   Eigen::MatrixXd covariance;  ///< of the noise and of the base's prior predictions
@@ -44,10 +44,12 @@ struct Marginal {
 Marginal marginal(const FittedModel& base, const NoisyData& data) {
   Marginal result{data.values - base.predicted, data.whitener.covariance()};
   for (const int i : base.free) {
-    if (i >= base.base_count) continue;
     const Eigen::VectorXd column = base.jacobian.col(i);
-    result.residual -= column * (0.5 - base.u[i]);
-    result.covariance += std::pow(base.prior_sd[i], 2) * column * column.transpose();
+    const bool is_constant = i < base.base_count;
+    if (is_constant) result.residual -= column * (0.5 - base.u[i]);
+    const double variance =
+        is_constant ? std::pow(base.prior_sd[i], 2) : std::pow(base.upper[i] - base.lower[i], 2) / 12.0;
+    result.covariance += variance * column * column.transpose();
   }
   return result;
 }
@@ -116,12 +118,13 @@ Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
          0.5 * in_units_of(noise, std::move(own), observations);
 }
 
-DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, double chi2, int count) {
+DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Anchor& by_rows_anchor, double chi2,
+                                           int count) {
   const Observations& observations = evidence.observations;
   const DataSource source(observations);
-  const Anchor anchor = source.combined(evidence.base);
+  const Anchor anchor = source.combined(by_rows_anchor);
   const Eigen::MatrixXd by_rows =
-      source.combined(discrepancy_covariance(observations, evidence.base.directions, observations.covariance()));
+      source.combined(discrepancy_covariance(observations, by_rows_anchor.directions, observations.covariance()));
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
   const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)),
                        Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};

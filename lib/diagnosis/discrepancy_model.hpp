@@ -25,8 +25,8 @@ struct DiscrepancyTest {
 Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
                                        const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise);
 
-/// Tests the best model of `count` (1 or 2) effects against the discrepancy model; `chi2` is that of the fitted
-/// effects. Cost: a Cholesky factorisation of the rows per amplitude and draw.
-DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, double chi2, int count);
+/// Tests the best model of `count` (1 or 2) effects more than `anchor` has against a discrepancy beside the anchor;
+/// `chi2` is that of the fitted effects. Cost: a Cholesky factorisation of the rows per amplitude and draw.
+DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Anchor& anchor, double chi2, int count);
 
 }  // namespace nacre::diagnosis

@@ -7,7 +7,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/discrepancy_model.hpp"
+#include "diagnosis/name_tests.hpp"
 #include "diagnosis/other_materials.hpp"
 #include "material/effect_words.hpp"
 
@@ -191,79 +191,14 @@ Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, s
   return decision;
 }
 
-/// Signal-to-noise ratio of the effects of a model at its own constants and with its own discretisation error, beyond
-/// what moving the constants imitates, or would were they not bounded: an effect that only makes up for a bound has no
-/// signature of its own. Not at the base's constants: they moved as far as they could to imitate the effect, and
-/// derivatives and discretisation error there say little of the true ones.
-double signal_of(const Evidence& evidence, const FittedModel& model) {
-  const FittedModel fit = fit_with_own_discretisation(evidence, model.effects, model.u).fit;
-  const FittedModel base = linearised(evidence.model, {}, fit.u.head(fit.base_count));
-  const Observations observations = with_discretisation_at(evidence, evidence.model.map(fit.effects), fit.u);
-  return signature_size(base, fit.predicted - base.predicted, Whitener(observations.covariance())).projected;
-}
-
-/// How far the base with nothing but its strongest contrast lies ahead of a model, in chi squared. Effects that are
-/// such a contrast themselves, like a drift from batch to batch, are level with it; others must beat it.
-double lead_of_contrast(const Evidence& evidence, const Decision& decision, const FittedModel& model) {
-  if (decision.contrasts.empty()) return 0.0;
-  return std::pow(decision.contrasts.front().statistic, 2) - (evidence.base.fit.chi2 - model.chi2);
-}
-
-/// A model of one or two effects without one of them.
-const FittedModel& without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
-  if (model.effects.size() == 1) return evidence.base.fit;
-  return *std::ranges::find_if(
-      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
-}
-
-/// A condition of the specimens, one factor on which does as well as one of a model's effects; empty when none does.
-std::string condition_instead(const Evidence& evidence, const FittedModel& model) {
-  const NoisyData data{evidence.observations.values, Whitener(evidence.observations.covariance())};
-  Anchor anchor;
-  anchor.directions = even_directions(evidence.observations);
-  for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
-    anchor.fit = without(evidence, model, effect);
-    const std::vector<double> by_factors = anchor_statistics(anchor, data).contrasts;
-    for (std::size_t i = 0; i < by_factors.size(); ++i) {
-      const double lead = anchor.fit.chi2 - model.chi2 - std::pow(by_factors[i], 2);
-      if (lead < kEvenLead) return anchor.directions[i].name;
-    }
-  }
-  return {};
-}
-
 /// Names one, or keeps several (`possible` is not empty); none where an unmodelled cause could look the same.
 Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, std::string reason) {
   const FittedModel& best = possible.front();
-  const double signal = signal_of(evidence, best);
-  decision.p_outside = tested_against_discrepancy(evidence, best.chi2, static_cast<int>(best.effects.size())).p;
-  const std::string nearest = in_words(best.effects) + " comes nearest";
-  if (signal < kNameableSignal) {
+  const NameTests tests = tested_for_a_name(evidence, best);
+  decision.p_outside = tests.p_outside;
+  if (!tests.objection.empty())
     return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but its signature has a signal-to-noise ratio of only {:.1f}: an unmodelled "
-                                   "cause could look the same (a name needs {:.1f}, more replicates raise the ratio)",
-                                   nearest, signal, kNameableSignal));
-  }
-  if (const double lead = lead_of_contrast(evidence, decision, best); lead > kContrastTie) {
-    return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but the contrast \"{}\" alone explains more: an unmodelled cause acts along it",
-                                   nearest, decision.contrasts.front().name));
-  }
-  if (const std::string condition = condition_instead(evidence, best); !condition.empty()) {
-    return unexplained(
-        std::move(decision), possible,
-        fmt::format(
-            "{}, but one factor on all specimens of the same {} explains these data as well: an unmodelled cause "
-            "may act along it (homogeneous coupons of each {} would show which)",
-            nearest, condition, condition));
-  }
-  if (decision.p_outside > kDiscrepancyLevel) {
-    return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but an unmodelled cause could look the same: data drawn from a discrepancy "
-                                   "model, which knows no physics, favour a known effect by as much with probability "
-                                   "{:.2f} (a name needs {:.2f} or less)",
-                                   nearest, decision.p_outside, kDiscrepancyLevel));
-  }
+                       fmt::format("{} comes nearest, but {}", in_words(best.effects), tests.objection));
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
   decision.reason = std::move(reason);

@@ -1,0 +1,127 @@
+#include "diagnosis/name_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/contrasts.hpp"
+#include "diagnosis/discrepancy_model.hpp"
+#include "material/effect_words.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// A model of one or two effects without one of them: the base, or the single fit of the other.
+FittedModel without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
+  if (model.effects.size() == 1) return evidence.base.fit;
+  return *std::ranges::find_if(
+      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
+}
+
+/// The anchor to which one effect of a model is added.
+Anchor anchor_without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
+  if (model.effects.size() == 1) return evidence.base;
+  Anchor anchor;
+  anchor.fit = without(evidence, model, effect);
+  std::vector<std::string> others = evidence.effects;
+  std::erase(others, anchor.fit.effects.front());
+  anchor.signatures = signatures_on(evidence.model, anchor.fit, others);
+  anchor.directions = contrast_directions(evidence.observations, anchor.fit.predicted);
+  anchor.parts = parts_of_rows(evidence.observations);
+  return anchor;
+}
+
+/// Coordinates of a model without those of one of its effects.
+Eigen::VectorXd coordinates_without(const CoordinateMap& map, const FittedModel& model, std::size_t effect) {
+  const int first = map.first_coordinate(effect);
+  const bool is_last = effect + 1 == model.effects.size();
+  const int end = is_last ? map.size() : map.first_coordinate(effect + 1);
+  Eigen::VectorXd rest(map.size() - (end - first));
+  rest << model.u.head(first), model.u.tail(map.size() - end);
+  return rest;
+}
+
+/// Signal-to-noise ratio of the weakest effect of a model at its own constants and with its own discretisation error,
+/// beyond what moving the constants, and the other effect, imitates, or would were they not bounded: an effect that only
+/// makes up for a bound has no signature of its own. Not at the base's constants: they moved as far as they could to
+/// imitate the effect, and derivatives and discretisation error there say little of the true ones.
+double weakest_signal(const Evidence& evidence, const FittedModel& model) {
+  const FittedModel fit = fit_with_own_discretisation(evidence, model.effects, model.u).fit;
+  const CoordinateMap map = evidence.model.map(fit.effects);
+  const Whitener whitener(with_discretisation_at(evidence, map, fit.u).covariance());
+  double weakest = std::numeric_limits<double>::infinity();
+  for (std::size_t effect = 0; effect < fit.effects.size(); ++effect) {
+    std::vector<std::string> others = fit.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(effect));
+    const FittedModel rest = linearised(evidence.model, others, coordinates_without(map, fit, effect));
+    weakest = std::min(weakest, signature_size(rest, fit.predicted - rest.predicted, whitener).projected);
+  }
+  return weakest;
+}
+
+/// The contrast that, added to the anchor in place of the model's effect, explains more. Effects that are such a
+/// contrast themselves, like a drift from batch to batch, are level with it; others must beat it.
+std::string contrast_instead(const Anchor& anchor, const NoisyData& data, const FittedModel& model) {
+  const std::vector<double> by_contrasts = anchor_statistics(anchor, data).contrasts;
+  if (by_contrasts.empty()) return {};
+  const auto most = std::ranges::max_element(by_contrasts);
+  const double lead = std::pow(*most, 2) - (anchor.fit.chi2 - model.chi2);
+  return lead > kContrastTie ? anchor.directions[most - by_contrasts.begin()].name : std::string();
+}
+
+/// A condition of the specimens, one factor on which does as well as the effect; empty when none does.
+std::string condition_instead(const Observations& observations, Anchor anchor, const NoisyData& data,
+                              const FittedModel& model) {
+  anchor.directions = even_directions(observations);
+  const std::vector<double> by_factors = anchor_statistics(anchor, data).contrasts;
+  for (std::size_t i = 0; i < by_factors.size(); ++i) {
+    const double lead = anchor.fit.chi2 - model.chi2 - std::pow(by_factors[i], 2);
+    if (lead < kEvenLead) return anchor.directions[i].name;
+  }
+  return {};
+}
+
+}  // namespace
+
+NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) {
+  const Observations& observations = evidence.observations;
+  const NoisyData data{observations.values, Whitener(observations.covariance())};
+  const double signal = weakest_signal(evidence, model);
+  const int count = static_cast<int>(model.effects.size());
+  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p, .objection = {}};
+  std::string contrast, condition;
+  for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
+    const Anchor anchor = anchor_without(evidence, model, effect);
+    if (count > 1)
+      tests.p_outside =
+          std::max(tests.p_outside, tested_against_discrepancy(evidence, anchor, model.chi2, 1).p);
+    if (contrast.empty()) contrast = contrast_instead(anchor, data, model);
+    if (condition.empty()) condition = condition_instead(observations, anchor, data, model);
+  }
+  const std::string_view its = count > 1 ? "the signature of one of them" : "its signature";
+  if (signal < kNameableSignal) {
+    tests.objection = fmt::format(
+        "{} has a signal-to-noise ratio of only {:.1f}: an unmodelled cause could look the same (a name needs {:.1f}, "
+        "more replicates raise the ratio)",
+        its, signal, kNameableSignal);
+  } else if (!contrast.empty()) {
+    tests.objection =
+        fmt::format("the contrast \"{}\" alone explains more: an unmodelled cause acts along it", contrast);
+  } else if (!condition.empty()) {
+    tests.objection = fmt::format(
+        "one factor on all specimens of the same {} explains these data as well: an unmodelled cause may act along it "
+        "(homogeneous coupons of each {} would show which)",
+        condition, condition);
+  } else if (tests.p_outside > kDiscrepancyLevel) {
+    tests.objection = fmt::format(
+        "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, favour a "
+        "known effect by as much with probability {:.2f} (a name needs {:.2f} or less)",
+        tests.p_outside, kDiscrepancyLevel);
+  }
+  return tests;
+}
+
+}  // namespace nacre::diagnosis
