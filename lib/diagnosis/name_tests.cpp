@@ -45,9 +45,9 @@ Eigen::VectorXd coordinates_without(const CoordinateMap& map, const FittedModel&
 }
 
 /// Signal-to-noise ratio of the weakest effect of a model at its own constants and with its own discretisation error,
-/// beyond what moving the constants, and the other effect, imitates, or would were they not bounded: an effect that only
-/// makes up for a bound has no signature of its own. Not at the base's constants: they moved as far as they could to
-/// imitate the effect, and derivatives and discretisation error there say little of the true ones.
+/// beyond what moving the constants, and the other effect, imitates, or would were they not bounded: an effect that
+/// only makes up for a bound has no signature of its own. Not at the base's constants: they moved as far as they could
+/// to imitate the effect, and derivatives and discretisation error there say little of the true ones.
 double weakest_signal(const Evidence& evidence, const FittedModel& model) {
   const FittedModel fit = fit_with_own_discretisation(evidence, model.effects, model.u).fit;
   const CoordinateMap map = evidence.model.map(fit.effects);
@@ -62,9 +62,13 @@ double weakest_signal(const Evidence& evidence, const FittedModel& model) {
   return weakest;
 }
 
-/// The contrast that, added to the anchor in place of the model's effect, explains more. Effects that are such a
-/// contrast themselves, like a drift from batch to batch, are level with it; others must beat it.
-std::string contrast_instead(const Anchor& anchor, const NoisyData& data, const FittedModel& model) {
+/// The contrast, or smooth law of the stiffness, that explains more when it is added to the anchor in place of the
+/// model's effect. Effects that are such a contrast themselves, like a drift from batch to batch, are level with it;
+/// others must beat it.
+std::string contrast_instead(const Observations& observations, Anchor anchor, const NoisyData& data,
+                             const FittedModel& model) {
+  for (ContrastDirection& law : smooth_law_directions(observations, anchor.fit.predicted))
+    anchor.directions.push_back(std::move(law));
   const std::vector<double> by_contrasts = anchor_statistics(anchor, data).contrasts;
   if (by_contrasts.empty()) return {};
   const auto most = std::ranges::max_element(by_contrasts);
@@ -91,14 +95,14 @@ NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) 
   const NoisyData data{observations.values, Whitener(observations.covariance())};
   const double signal = weakest_signal(evidence, model);
   const int count = static_cast<int>(model.effects.size());
-  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p, .objection = {}};
+  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p,
+                  .objection = {}};
   std::string contrast, condition;
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
     const Anchor anchor = anchor_without(evidence, model, effect);
     if (count > 1)
-      tests.p_outside =
-          std::max(tests.p_outside, tested_against_discrepancy(evidence, anchor, model.chi2, 1).p);
-    if (contrast.empty()) contrast = contrast_instead(anchor, data, model);
+      tests.p_outside = std::max(tests.p_outside, tested_against_discrepancy(evidence, anchor, model.chi2, 1).p);
+    if (contrast.empty()) contrast = contrast_instead(observations, anchor, data, model);
     if (condition.empty()) condition = condition_instead(observations, anchor, data, model);
   }
   const std::string_view its = count > 1 ? "the signature of one of them" : "its signature";
@@ -117,7 +121,8 @@ NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) 
         condition, condition);
   } else if (tests.p_outside > kDiscrepancyLevel) {
     tests.objection = fmt::format(
-        "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, favour a "
+        "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, favour "
+        "a "
         "known effect by as much with probability {:.2f} (a name needs {:.2f} or less)",
         tests.p_outside, kDiscrepancyLevel);
   }
