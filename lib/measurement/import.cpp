@@ -18,6 +18,7 @@
 #include "measurement/plausibility.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "measurement/strain_rate.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 

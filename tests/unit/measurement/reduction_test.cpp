@@ -1,4 +1,5 @@
 #include "measurement/reduction.hpp"
+#include "measurement/strain_rate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
