@@ -43,9 +43,25 @@ bool is_label(std::string_view word) {
   return digits || word.size() == 1 || letter_and_digits;
 }
 
-bool is_specimen_word(const std::string& word) {
-  const auto words = specimen_words();
+bool is_specimen_word(std::string_view word) {
+  const auto words = specimen_words().words();
   return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// `probe1`: a specimen's name and number in one word.
+bool names_specimen(std::string_view word) {
+  const std::size_t digits = word.find_first_of("0123456789");
+  return digits != std::string_view::npos && digits > 0 && word.size() - digits <= 3 &&
+         word.find_first_not_of("0123456789", digits) == std::string_view::npos &&
+         is_specimen_word(word.substr(0, digits));
+}
+
+/// Without the number that a spreadsheet gives a heading that occurs again: `travel .1`.
+std::string_view without_count(std::string_view name) {
+  const std::size_t point = name.rfind('.');
+  if (point == std::string_view::npos || point == 0 || point + 1 == name.size() || name.size() - point > 4) return name;
+  if (name.find_first_not_of("0123456789", point + 1) != std::string_view::npos) return name;
+  return trimmed(name.substr(0, point));
 }
 
 struct Labelled {
@@ -64,7 +80,7 @@ Labelled labelled(const std::string& name, bool at_the_end) {
   if (!at_the_end) std::reverse(words.begin(), words.end());
   if (words.size() < 2) return {name, ""};
   std::string label;
-  if (is_label(words.back())) {
+  if (is_label(words.back()) || names_specimen(words.back())) {
     label = words.back();
     words.pop_back();
     if (words.size() > 1 && at_the_end && is_specimen_word(words.back())) {
@@ -107,7 +123,9 @@ std::vector<ColumnGroup> groups_by_label(const TableBlock& block, bool at_the_en
 }
 
 /// What a heading shares with its like in another group.
-std::string key_of(const ColumnName& name) { return name.name + "|" + bare_unit(name.unit); }
+std::string key_of(const ColumnName& name) {
+  return std::string(without_count(name.name)) + "|" + bare_unit(name.unit);
+}
 
 /// Groups by headings that occur again, named by the labels in a line above.
 std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {

@@ -117,8 +117,9 @@ class Exports {
 
   /// Different columns of one file may be different tests.
   static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
-    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension, choice.force,
-                                                          choice.time, choice.strain, choice.stress, choice.unit);
+    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension_falls,
+                                                          choice.extension, choice.force, choice.time, choice.strain,
+                                                          choice.stress, choice.unit);
   }
 
   const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
@@ -262,8 +263,12 @@ void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<d
     warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
                                    imported.record.specimen, rate_per_s));
   } else {
-    imported.decisions.push_back(fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
-                                             row.planned_rate_per_s ? "the planned one" : "assumed"));
+    const std::string said = fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
+                                         row.planned_rate_per_s ? "the planned one" : "assumed");
+    imported.decisions.push_back(said);
+    if (!row.planned_rate_per_s)
+      warnings.push_back(fmt::format("specimen {}: {}; expected strain_rate_per_s in the sheet, or time_column",
+                                     imported.record.specimen, said));
   }
 }
 
@@ -308,6 +313,8 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   // The area of a modulus test that is unloaded is noise; linear_part() has checked its sign.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
+  for (const std::string& doubt : doubts_of_course(curve.stress_pa))
+    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt));
   imported.test = *test;
   imported.provenance = provenance_of(from, row);
   set_rate(from, row, time_s, curve, imported, warnings);

@@ -10,9 +10,9 @@ namespace nacre::measurement {
 namespace {
 
 constexpr double kFrom = 0.1, kTo = 0.4;             // of the peak stress
-constexpr double kStalled = 0.3, kJump = 3.0;          // of the expected strain of a stretch
+constexpr double kStalled = 0.3, kJump = 3.0;        // of the expected strain of a stretch
 constexpr std::size_t kFewestRows = 5, kFewest = 3;  // of a stretch; left out at least
-constexpr double kBeyondNoise = 8.0;  // standard deviations by which the strain grows along a stretch
+constexpr double kBeyondNoise = 8.0;                 // standard deviations by which the strain grows along a stretch
 
 double clock_at(const std::vector<double>& time_s, std::size_t row) {
   return time_s.empty() ? static_cast<double>(row) : time_s[row];

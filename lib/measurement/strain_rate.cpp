@@ -9,11 +9,11 @@
 namespace nacre::measurement {
 namespace {
 
-constexpr double kSureRate = 0.01;               // standard error over the rate, up to which no more ticks are taken
-constexpr double kOwnNoise = 1.5;                // residuals over the noise of the strain along one speed
-constexpr double kStill = 0.25, kMoving = 0.5;   // of a rate
-constexpr double kSureOfHold = 3.0;              // standard errors
-constexpr std::size_t kStretches = 4;            // of the window of the rate
+constexpr double kSureRate = 0.01;              // standard error over the rate, up to which no more ticks are taken
+constexpr double kOwnNoise = 1.5;               // residuals over the noise of the strain along one speed
+constexpr double kStill = 0.25, kMoving = 0.5;  // of a rate
+constexpr double kSureOfHold = 3.0;             // standard errors
+constexpr std::size_t kStretches = 4;           // of the window of the rate
 constexpr std::size_t kFewestTicks = 3, kEnoughTicks = 5;
 
 /// Rows at which the clock advances, up to the end of the record.
@@ -71,11 +71,11 @@ FittedRate fitted_rate(const Ticks& ticks, TickWindow window) {
 /// noise does not hide the motion.
 TickWindow longest_moving(const Ticks& ticks, TickWindow window, double rate, double noise) {
   constexpr double kBeyondNoise = 6.0;
-  const double step = rate * (ticks.time_s[window.last] - ticks.time_s[window.first]) /
-                      static_cast<double>(window.last - window.first);
+  const double step =
+      rate * (ticks.time_s[window.last] - ticks.time_s[window.first]) / static_cast<double>(window.last - window.first);
   const std::size_t along =
-      std::max(kEnoughTicks, static_cast<std::size_t>(std::min(kBeyondNoise * noise / step,
-                                                               static_cast<double>(window.count()))));
+      std::max(kEnoughTicks,
+               static_cast<std::size_t>(std::min(kBeyondNoise * noise / step, static_cast<double>(window.count()))));
   TickWindow longest{window.first, window.first};
   std::size_t begin = window.first;
   for (std::size_t i = window.first; i + along <= window.last; ++i) {

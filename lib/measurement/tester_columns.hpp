@@ -33,6 +33,7 @@ struct ColumnName {
   std::string unit = {};  ///< as written with the name; empty when it is not
   Gauge gauge = Gauge::unknown;
   ColumnRole role = ColumnRole::measured;
+  bool is_qualified = false;   ///< a word that is not known says more of it (`Grip Force`)
   bool is_other = false;       ///< a word gives the name another meaning (`maximum`, `rate`)
   bool is_specimen = false;    ///< tells which specimen a row belongs to
   bool unit_of_cells = false;  ///< the unit stands behind each number

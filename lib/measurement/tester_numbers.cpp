@@ -180,6 +180,7 @@ ColumnMark column_mark(std::span<const std::string_view> cells) {
   constexpr std::size_t kEnough = 3;  // numbers of either kind
   if (!found.mark && one_mark && marked >= kEnough && unmarked_small >= kEnough && unmarked_large == 0)
     found.mark = *grouped_by == DecimalMark::comma ? DecimalMark::point : DecimalMark::comma;
+  if (!found.mark && one_mark) found.lone = grouped_by;
   return found;
 }
 

@@ -135,10 +135,9 @@ bool is_of_extremes(const std::string& title) {
 
 /// Words of a title that name another specimen.
 bool names_a_specimen(const std::string& title) {
-  const std::string words = plain_words(title);
-  const auto known = specimen_words();
+  const auto known = specimen_words().find_all(plain_words(title));
   return std::any_of(known.begin(), known.end(),
-                     [&](std::string_view word) { return word.size() > 3 && holds_word(words, word); });
+                     [](const FoundWord& each) { return specimen_words().words()[each.index].size() > 3; });
 }
 
 class PartFinder {
@@ -191,6 +190,11 @@ class PartFinder {
 
   void read_block(std::size_t index) {
     const TableBlock& block = tables_.blocks[index];
+    if (block.statistics > 0)
+      found_.notes.push_back(
+          fmt::format("{}: {} rows of statistics (`Mean`, `SD`) of the table that begins in line {} "
+                      "are left out",
+                      file_, block.statistics, block.heading + 1));
     if (block.ignored_rows > 0)
       found_.notes.push_back(
           fmt::format("{}: {} rows of numbers after the record that begins in line {} stand below "

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -40,7 +41,7 @@ class SeriesReader {
   tl::expected<ColumnSeries, ImportFault> read() {
     for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
     for (const std::size_t row : rows_) {
-      if (delimiter_ == kGaps && block_.cells_in(row) != block_.columns.size()) {
+      if ((delimiter_ == kGaps || delimiter_ == kBlanks) && block_.cells_in(row) != block_.columns.size()) {
         reject(block_.lines[row] + 1, "",
                fmt::format("has {} columns, expected {} as in the heading: an empty cell, or fewer than two blanks "
                            "between columns; export with a delimiter",
@@ -92,7 +93,8 @@ class SeriesReader {
 
   /// The decimal mark of each column: its own, else that of the others, else that of the delimiter.
   void find_marks() {
-    std::optional<DecimalMark> usual;
+    std::optional<DecimalMark> usual, lone;
+    bool one_lone = true;
     for (const std::size_t column : columns_) {
       if (!matters(column)) continue;
       const ColumnMark found = column_mark(cells_of_column(column));
@@ -105,8 +107,16 @@ class SeriesReader {
       }
       marks_[column] = found.mark;
       if (found.mark && !usual) usual = found.mark;
+      one_lone = one_lone && (!found.lone || lone.value_or(*found.lone) == *found.lone);
+      if (found.lone) lone = found.lone;
     }
-    default_mark_ = usual.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma);
+    if (!one_lone) lone.reset();
+    default_mark_ = usual.value_or(lone.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma));
+    if (!usual && lone && delimiter_ != ',')
+      series_.warnings.push_back(fmt::format(
+          "{}: every number with a {} has three digits behind it; it is read as the decimal mark, not as one of "
+          "thousands",
+          file_, *lone == DecimalMark::comma ? "comma" : "point"));
     series_.decimal_mark = default_mark_ == DecimalMark::comma ? ',' : '.';
   }
 
@@ -172,8 +182,9 @@ class SeriesReader {
   }
 
   static auto order_of(const Candidate& each) {
-    return std::tuple(each.is_dead, each.name->role, !each.has_unit, each.name->rank, each.column);
+    return std::tuple(each.is_dead, each.name->role, !each.has_unit, each.name->is_qualified, each.name->rank);
   }
+  static auto place_of(const Candidate& each) { return std::tuple(order_of(each), each.column); }
 
   /// Why the one that was taken comes before another.
   static std::string reason_for(const Candidate& taken, const Candidate& other) {
@@ -183,8 +194,37 @@ class SeriesReader {
     if (other.name->role == ColumnRole::raw && taken.name->role != ColumnRole::raw) return "not calibrated";
     if (taken.has_unit && !other.has_unit) return "has no unit";
     if (other.goes_back && !taken.goes_back) return "goes back";
+    if (other.name->is_qualified && !taken.name->is_qualified) return "another word says more of it";
     if (taken.name->rank < other.name->rank) return "less usual";
     return "stands further right";
+  }
+
+  /// Whether two columns rise and fall differently, by more than 1 % of the range of the first.
+  bool differ(const Candidate& one, const Candidate& other, Quantity quantity) const {
+    constexpr double kAlike = 0.01;
+    const auto factor = [&](const Candidate& each) { return unit_factor(quantity, each.name->unit).value_or(1.0); };
+    std::optional<double> first, first_other;
+    double most = 0.0;
+    for (const std::size_t row : rows_) {
+      const auto value = value_at(row, one.column), beside = value_at(row, other.column);
+      if (!value || !beside) continue;
+      if (!first) first = *value, first_other = *beside;
+      most = std::max(most, std::abs(factor(one) * (*value - *first) - factor(other) * (*beside - *first_other)));
+    }
+    return most > kAlike * factor(one) * range_of(one.column).first;
+  }
+
+  /// A warning where nothing but their places decided between columns that differ.
+  void doubt_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all) {
+    for (const Candidate& other : all) {
+      if (other.column == taken.column || order_of(other) != order_of(taken) || !differ(taken, other, quantity))
+        continue;
+      series_.warnings.push_back(fmt::format(
+          "{}: `{}` and `{}` are both measured columns of {} and differ; the first is taken: expected {}_column in the "
+          "sheet, or part where they are of two specimens",
+          file_, taken.name->heading, other.name->heading, to_string(quantity), to_string(quantity)));
+      return;
+    }
   }
 
   void say_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all, TakenColumn& column) {
@@ -222,7 +262,7 @@ class SeriesReader {
   void take(Quantity quantity) {
     std::vector<Candidate> all = candidates_for(quantity);
     find_dead(all, quantity);
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
     const bool by_name = !choice_.of(quantity).empty();
     const auto may_be_taken = [&](const Candidate& each) {
       return by_name || (each.name->role != ColumnRole::set_point && each.name->role != ColumnRole::lateral);
@@ -232,6 +272,7 @@ class SeriesReader {
     if (taken == all.end()) return refuse_absent(quantity, all);
     TakenColumn column{.heading = taken->name->heading, .gauge = taken->name->gauge};
     say_choice(quantity, *taken, all, column);
+    if (taken->match < 3) doubt_choice(quantity, *taken, all);
     if (!find_factor(quantity, *taken->name, column)) return;
     if (std::count(contradictory_.begin(), contradictory_.end(), taken->column) > 0) {
       return reject(contradiction_, "",
@@ -239,7 +280,11 @@ class SeriesReader {
                                 "expected one of them throughout",
                                 contradicted_));
     }
-    read_values(quantity, taken->column, column.factor);
+    const bool falls = quantity == Quantity::extension && choice_.extension_falls;
+    if (falls)
+      series_.decisions.push_back(
+          fmt::format("extension: `{}` counts downwards in tension, as the sheet says", taken->name->heading));
+    read_values(quantity, taken->column, falls ? -column.factor : column.factor);
     series_.taken[static_cast<std::size_t>(quantity)] = std::move(column);
   }
 
