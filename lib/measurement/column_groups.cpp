@@ -169,6 +169,35 @@ std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
   return groups;
 }
 
+/// Groups of columns whose names repeat in one order, whatever their units: `Time;Load;Time;Load`.
+std::vector<ColumnGroup> groups_by_period(const TableBlock& block) {
+  std::vector<std::size_t> named;
+  for (std::size_t i = 0; i < block.columns.size(); ++i) {
+    if (!block.columns[i].heading.empty()) named.push_back(i);
+  }
+  const auto name_of = [&](std::size_t place) { return without_count(block.columns[named[place]].name); };
+  for (std::size_t period = 2; 2 * period <= named.size(); ++period) {
+    if (named.size() % period != 0) continue;
+    bool repeats = true, has_extension = false, has_force = false;
+    for (std::size_t i = 0; i < named.size() && repeats; ++i) repeats = name_of(i) == name_of(i % period);
+    for (std::size_t i = 0; i < period; ++i) {
+      has_extension = has_extension || block.columns[named[i]].quantity == Quantity::extension;
+      has_force = has_force || block.columns[named[i]].quantity == Quantity::force;
+    }
+    if (!repeats || !has_extension || !has_force) continue;
+    std::vector<ColumnGroup> groups;
+    for (std::size_t first = 0; first < named.size(); first += period) {
+      const std::size_t label = named[first];
+      const bool labelled = label < block.labels.size() && !block.labels[label].empty();
+      groups.push_back({labelled ? block.labels[label] : std::to_string(groups.size() + 1),
+                        {named.begin() + static_cast<std::ptrdiff_t>(first),
+                         named.begin() + static_cast<std::ptrdiff_t>(first + period)}});
+    }
+    return groups;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoice& choice) {
@@ -182,6 +211,7 @@ std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoi
   // Who names both columns exactly has chosen the specimen.
   if (is_exact(Quantity::extension) && is_exact(Quantity::force)) return {all};
   if (auto groups = groups_by_occurrence(block); !groups.empty()) return groups;
+  if (auto groups = groups_by_period(block); !groups.empty()) return groups;
   for (const bool at_the_end : {true, false}) {
     if (auto groups = groups_by_label(block, at_the_end); !groups.empty()) return groups;
   }

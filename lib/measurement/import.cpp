@@ -290,8 +290,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
       .gauge_mm = row.gauge_mm,
       .decisions = from.decisions};
   tester::Curve curve = nominal_curve(from, row, {});
-  const PullStart start = pull_start(from.time_s, curve);
-  if (const auto implausible = implausible_record(from, start.row, shown_file)) return tl::unexpected(*implausible);
+  if (const auto implausible = implausible_record(from, shown_file)) return tl::unexpected(*implausible);
   const auto units = settle_units(from, row, settings.toe);
   if (!units) return fault("", units.error());
   for (const std::string& said : units->said) {

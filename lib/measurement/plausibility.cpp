@@ -13,7 +13,7 @@ namespace nacre::measurement {
 namespace {
 
 constexpr double kLargeEnough = 0.02;  // of the largest number: below, ratios are noise
-constexpr double kHigh = 0.2;          // of the largest number: there and back again is no noise
+constexpr double kHigh = 0.2;          // of the largest number: a hundredfold jump and back is no noise
 constexpr std::size_t kPairRows = 12;  // between there and back
 constexpr double kPowerOfTen = 0.06;   // of the logarithm: how near a jump is to a power of ten
 
@@ -102,12 +102,12 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
     const double step = std::abs(to - from);
     const bool sudden = i > 3 && step > 10.0 * std::max(most_step, usual_step);
     if (power != 0.0 && up && power * power_of_ten(values[*up - 1], values[*up]) < 0.0) return up;
-    if (power != 0.0 && std::max(std::abs(from), std::abs(to)) > kHigh * largest) {
+    if (std::abs(power) > 1.0 && std::max(std::abs(from), std::abs(to)) > kHigh * largest) {
       if (pair && i - *pair <= kPairRows && power * power_of_ten(values[*pair - 1], values[*pair]) < 0.0) return pair;
       pair = i;
     }
     if (power != 0.0 && sudden) {
-      if (once && power > 0.0) return i;
+      if (once && power > 0.0 && std::abs(from) > kLargeEnough * largest) return i;
       up = i;
       continue;
     }
@@ -117,7 +117,7 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
   return std::nullopt;
 }
 
-std::optional<ImportFault> implausible_record(const TesterRecord& record, std::size_t begin, const std::string& file) {
+std::optional<ImportFault> implausible_record(const TesterRecord& record, const std::string& file) {
   const bool has_extension = !record.extension_mm.empty();
   const auto& extension = has_extension ? record.extension_mm : record.strain;
   const auto& force = record.force_n.empty() ? record.stress_pa : record.force_n;
@@ -132,10 +132,13 @@ std::optional<ImportFault> implausible_record(const TesterRecord& record, std::s
                        fmt::format("the {} does not move, expected another column, named in the sheet as {}_column",
                                    to_string(abscissa), to_string(abscissa))};
   if (auto fault = jump_fault(record, abscissa, extension, true, file)) return fault;
-  if (auto fault = jump_fault(record, ordinate, force, false, file)) return fault;
+  if (auto fault = jump_fault(record, ordinate, force, true, file)) return fault;
   const auto peak = static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
   const double least = *std::min_element(force.begin(), force.end());
-  const std::vector<double> loading(extension.begin() + static_cast<std::ptrdiff_t>(std::min(begin, peak)),
+  constexpr double kLoaded = 0.05;  // of the peak: before, the grips may have moved either way
+  std::size_t begin = peak;
+  while (begin > 0 && force[begin - 1] > kLoaded * force[peak]) --begin;
+  const std::vector<double> loading(extension.begin() + static_cast<std::ptrdiff_t>(begin),
                                     extension.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
   const double moved = loading.back() - loading.front();
   if (force[peak] > 0.0 && -least < force[peak] && loading.size() > 2 && moved < -0.5 * range_of(loading)) {

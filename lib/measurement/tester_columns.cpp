@@ -225,7 +225,10 @@ bool has_qualifier(std::string_view name, Quantity quantity, const std::vector<F
   }
   std::size_t letters = 0;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool is_letter = (name[i] >= 'a' && name[i] <= 'z') || static_cast<unsigned char>(name[i]) > 127;
+    const bool is_digit = name[i] >= '0' && name[i] <= '9';
+    if (is_digit) i = std::min(name.find_first_of(" ()[].-_", i), name.size() - 1);  // a label, `5kn`, `t7`
+    const bool is_letter =
+        !is_digit && ((name[i] >= 'a' && name[i] <= 'z') || static_cast<unsigned char>(name[i]) > 127);
     letters = is_letter && !known[i] ? letters + 1 : 0;
     if (letters > 1) return true;
   }
@@ -340,6 +343,9 @@ ColumnName recognise_column(std::string_view heading, std::string_view unit) {
   find_quantity(column, found);
   find_other_meaning(column, found);
   correct_by_unit(column, column.unit, !unit.empty() && column.unit == unit);
+  if (column.quantity && known && is_unit(bare_unit(unit)) &&
+      unit_factor(*column.quantity, unit) != unit_factor(*column.quantity, column.unit))
+    column.other_unit = unit;
   if (column.is_other) column.quantity.reset();
   if (column.quantity) column.is_qualified = has_qualifier(column.name, *column.quantity, found);
   find_role(column);

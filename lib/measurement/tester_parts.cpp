@@ -52,8 +52,14 @@ ColumnSeries rows_of_series(const ColumnSeries& series, std::size_t begin, std::
 }
 
 void append(ColumnSeries& series, const ColumnSeries& more) {
-  for (std::size_t q = 0; q < kQuantities; ++q)
+  for (std::size_t q = 0; q < kQuantities; ++q) {
+    if (series.values[q].size() != series.line.size() || more.values[q].size() != more.line.size()) {
+      series.values[q].clear();  // a clock that only one of them has
+      series.taken[q].reset();
+      continue;
+    }
     series.values[q].insert(series.values[q].end(), more.values[q].begin(), more.values[q].end());
+  }
   series.line.insert(series.line.end(), more.line.begin(), more.line.end());
 }
 

@@ -28,6 +28,7 @@ struct Candidate {
   int match = 0;               ///< of the name that the sheet gives
   bool has_unit = false;       ///< one that the quantity has
   bool is_dead = false;        ///< its numbers do not move, or it has hardly any
+  bool is_cut = false;         ///< it stays at its largest number: a load cell at its limit
   bool goes_back = false;      ///< a clock that does
   bool is_clock_time = false;  ///< hh:mm:ss
 };
@@ -164,6 +165,20 @@ class SeriesReader {
     return found;
   }
 
+  /// Whether a column stays at its largest number, to the last digit, for a twentieth of its rows and ten at least.
+  bool is_cut(std::size_t column) const {
+    constexpr std::size_t kFewest = 10, kShare = 20;
+    double largest = -std::numeric_limits<double>::infinity();
+    std::size_t run = 0, longest = 0;
+    for (const std::size_t row : rows_) {
+      const double value = value_at(row, column).value_or(-std::numeric_limits<double>::infinity());
+      run = value < largest ? 0 : value > largest ? 1 : run + 1;
+      longest = value > largest ? 1 : std::max(longest, run);
+      largest = std::max(largest, value);
+    }
+    return longest >= kFewest && kShare * longest > rows_.size();
+  }
+
   /// Marks the channels that do not move, against the one that moves most.
   void find_dead(std::vector<Candidate>& candidates, Quantity quantity) const {
     if (candidates.size() < 2) return;
@@ -172,6 +187,7 @@ class SeriesReader {
       const auto [range, others] = range_of(each.column);
       const double factor = each.has_unit ? unit_factor(quantity, each.name->unit).value_or(1.0) : 0.0;
       each.is_dead = range == 0.0 || 2 * others > rows_.size();
+      each.is_cut = quantity == Quantity::force && !each.is_dead && is_cut(each.column);
       ranges.push_back(each.is_dead || each.name->role != ColumnRole::measured ? 0.0 : range * factor);
     }
     const double widest = *std::max_element(ranges.begin(), ranges.end());
@@ -182,7 +198,8 @@ class SeriesReader {
   }
 
   static auto order_of(const Candidate& each) {
-    return std::tuple(each.is_dead, each.name->role, !each.has_unit, each.name->is_qualified, each.name->rank);
+    return std::tuple(each.is_dead, each.name->role, each.is_cut, !each.has_unit, each.name->is_qualified,
+                      each.name->rank);
   }
   static auto place_of(const Candidate& each) { return std::tuple(order_of(each), each.column); }
 
@@ -192,6 +209,7 @@ class SeriesReader {
     if (other.name->role == ColumnRole::lateral) return "across the specimen";
     if (other.is_dead && !taken.is_dead) return "does not move";
     if (other.name->role == ColumnRole::raw && taken.name->role != ColumnRole::raw) return "not calibrated";
+    if (other.is_cut && !taken.is_cut) return "stays at its largest number";
     if (taken.has_unit && !other.has_unit) return "has no unit";
     if (other.goes_back && !taken.goes_back) return "goes back";
     if (other.name->is_qualified && !taken.name->is_qualified) return "another word says more of it";
@@ -305,6 +323,12 @@ class SeriesReader {
 
   /// The unit of the heading, else that of the sheet, else none, which import_one() decides on.
   bool find_factor(Quantity quantity, const ColumnName& name, TakenColumn& column) {
+    if (!name.other_unit.empty()) {
+      reject(block_.unit_line + 1, name.heading,
+             fmt::format("`{}` in the heading, `{}` in the row of units, expected one unit; correct the export",
+                         unit_as_written(name.unit), unit_as_written(name.other_unit)));
+      return false;
+    }
     if (const auto factor = unit_factor(quantity, name.unit); factor && !name.unit.empty()) {
       column.unit = name.unit;
       column.factor = *factor;

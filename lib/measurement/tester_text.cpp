@@ -158,7 +158,10 @@ void split_at_blanks(std::string_view line, std::vector<std::string_view>& cells
     const std::size_t end = std::min(line.find_first_of(kSpaces), line.size());
     const std::string_view word = line.substr(0, end);
     const bool is_unit = word.front() == '(' || word.front() == '[';
-    if (is_unit && !cells.empty()) {
+    const bool is_comment = cells.empty() && (word == "#" || word == "%");
+    if (is_comment) {
+      // The mark before a heading is none of its words.
+    } else if (is_unit && !cells.empty()) {
       cells.back() = {cells.back().data(), static_cast<std::size_t>(word.data() + word.size() - cells.back().data())};
     } else {
       cells.push_back(word);
