@@ -153,6 +153,9 @@ std::optional<NameAndUnit> unit_between(const std::string& name) {
 /// it holds a word of headings.
 NameAndUnit unit_apart(const std::string& name) {
   if (auto found = unit_in_brackets(name)) return *found;
+  const std::vector<FoundQuantity> names = quantities_in(name);
+  const auto is_whole = [&](const FoundQuantity& each) { return each.name->word == name; };
+  if (std::any_of(names.begin(), names.end(), is_whole)) return {name, ""};  // `Fecha y hora` is not in hours
   if (auto found = unit_at_the_end(name)) return *found;
   if (auto found = unit_between(name)) return *found;
   const std::vector<Bracketed> groups = brackets_of(name);

@@ -1,6 +1,7 @@
 #include "measurement/tester_numbers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -18,14 +19,20 @@ bool is_plain(std::string_view text) {
   });
 }
 
+/// Letters that stand in numbers; all beyond ASCII may be signs.
+constexpr std::array<bool, 256> kOfNumbers = [] {
+  std::array<bool, 256> table{};
+  for (const char letter : std::string_view("0123456789.,-+eE' ")) table[static_cast<unsigned char>(letter)] = true;
+  for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;
+  return table;
+}();
+
 /// Whether no letter speaks against a number. Most cells of a header are words: they are told by their first letter.
 bool may_be_number(std::string_view text) {
   bool any_digit = false;
   for (const char letter : text) {
-    const bool is_beyond_ascii = static_cast<unsigned char>(letter) >= 0x80;
+    if (!kOfNumbers[static_cast<unsigned char>(letter)]) return false;
     any_digit = any_digit || is_digit(letter) || letter == '\xEF';  // full-width digits
-    if (!is_digit(letter) && !is_beyond_ascii && std::string_view(".,-+eE' ").find(letter) == std::string_view::npos)
-      return false;
   }
   return any_digit;
 }
