@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/csv.hpp"
+#include "measurement/candidate_column.hpp"
 #include "measurement/cell_units.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
@@ -20,18 +21,6 @@ namespace {
 
 constexpr double kDead = 1e-3;      // range of a dead channel over that of the widest
 constexpr double kHalfDay = 43200;  // s
-
-/// What is known of a column before it is chosen.
-struct Candidate {
-  std::size_t column = 0;
-  const ColumnName* name = nullptr;
-  int match = 0;               ///< of the name that the sheet gives
-  bool has_unit = false;       ///< one that the quantity has
-  bool is_dead = false;        ///< its numbers do not move, or it has hardly any
-  bool is_cut = false;         ///< it stays at its largest number: a load cell at its limit
-  bool goes_back = false;      ///< a clock that does
-  bool is_clock_time = false;  ///< hh:mm:ss
-};
 
 class SeriesReader {
  public:
@@ -150,8 +139,8 @@ class SeriesReader {
     return !name.unit.empty() && unit_factor(quantity, name.unit).has_value();
   }
 
-  std::vector<Candidate> candidates_for(Quantity quantity) const {
-    std::vector<Candidate> found;
+  std::vector<CandidateColumn> candidates_for(Quantity quantity) const {
+    std::vector<CandidateColumn> found;
     const std::string& wanted = choice_.of(quantity);
     int best_match = 0;
     for (const std::size_t column : columns_) {
@@ -161,7 +150,7 @@ class SeriesReader {
       found.push_back({.column = column, .name = &name, .match = matched, .has_unit = has_unit(name, quantity)});
       best_match = std::max(best_match, matched);
     }
-    std::erase_if(found, [&](const Candidate& each) { return each.match < best_match; });
+    std::erase_if(found, [&](const CandidateColumn& each) { return each.match < best_match; });
     return found;
   }
 
@@ -180,10 +169,10 @@ class SeriesReader {
   }
 
   /// Marks the channels that do not move, against the one that moves most.
-  void find_dead(std::vector<Candidate>& candidates, Quantity quantity) const {
+  void find_dead(std::vector<CandidateColumn>& candidates, Quantity quantity) const {
     if (candidates.size() < 2) return;
     std::vector<double> ranges;
-    for (Candidate& each : candidates) {
+    for (CandidateColumn& each : candidates) {
       const auto [range, others] = range_of(each.column);
       const double factor = each.has_unit ? unit_factor(quantity, each.name->unit).value_or(1.0) : 0.0;
       each.is_dead = range == 0.0 || 2 * others > rows_.size();
@@ -197,30 +186,12 @@ class SeriesReader {
     }
   }
 
-  static auto order_of(const Candidate& each) {
-    return std::tuple(each.is_dead, each.name->role, each.is_cut, !each.has_unit, each.name->is_qualified,
-                      each.name->rank);
-  }
-  static auto place_of(const Candidate& each) { return std::tuple(order_of(each), each.column); }
-
-  /// Why the one that was taken comes before another.
-  static std::string reason_for(const Candidate& taken, const Candidate& other) {
-    if (other.name->role == ColumnRole::set_point) return "a set point";
-    if (other.name->role == ColumnRole::lateral) return "across the specimen";
-    if (other.is_dead && !taken.is_dead) return "does not move";
-    if (other.name->role == ColumnRole::raw && taken.name->role != ColumnRole::raw) return "not calibrated";
-    if (other.is_cut && !taken.is_cut) return "stays at its largest number";
-    if (taken.has_unit && !other.has_unit) return "has no unit";
-    if (other.goes_back && !taken.goes_back) return "goes back";
-    if (other.name->is_qualified && !taken.name->is_qualified) return "another word says more of it";
-    if (taken.name->rank < other.name->rank) return "less usual";
-    return "stands further right";
-  }
-
   /// Whether two columns rise and fall differently, by more than 1 % of the range of the first.
-  bool differ(const Candidate& one, const Candidate& other, Quantity quantity) const {
+  bool differ(const CandidateColumn& one, const CandidateColumn& other, Quantity quantity) const {
     constexpr double kAlike = 0.01;
-    const auto factor = [&](const Candidate& each) { return unit_factor(quantity, each.name->unit).value_or(1.0); };
+    const auto factor = [&](const CandidateColumn& each) {
+      return unit_factor(quantity, each.name->unit).value_or(1.0);
+    };
     std::optional<double> first, first_other;
     double most = 0.0;
     for (const std::size_t row : rows_) {
@@ -233,8 +204,8 @@ class SeriesReader {
   }
 
   /// A warning where nothing but their places decided between columns that differ.
-  void doubt_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all) {
-    for (const Candidate& other : all) {
+  void doubt_choice(Quantity quantity, const CandidateColumn& taken, const std::vector<CandidateColumn>& all) {
+    for (const CandidateColumn& other : all) {
       if (other.column == taken.column || order_of(other) != order_of(taken) || !differ(taken, other, quantity))
         continue;
       series_.warnings.push_back(fmt::format(
@@ -245,9 +216,10 @@ class SeriesReader {
     }
   }
 
-  void say_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all, TakenColumn& column) {
+  void say_choice(Quantity quantity, const CandidateColumn& taken, const std::vector<CandidateColumn>& all,
+                  TakenColumn& column) {
     std::vector<std::string> others;
-    for (const Candidate& other : all) {
+    for (const CandidateColumn& other : all) {
       if (other.column == taken.column) continue;
       column.not_taken.push_back(other.name->heading);
       others.push_back(fmt::format("`{}` ({})", other.name->heading,
@@ -259,7 +231,7 @@ class SeriesReader {
     }
     for (const std::size_t i : columns_) {
       const ColumnName& name = block_.columns[i];
-      const auto is_it = [&](const Candidate& each) { return each.column == i; };
+      const auto is_it = [&](const CandidateColumn& each) { return each.column == i; };
       if (name.quantity != quantity || std::any_of(all.begin(), all.end(), is_it)) continue;
       column.not_taken.push_back(name.heading);
       others.push_back(fmt::format("`{}` (not named by the sheet)", name.heading));
@@ -278,11 +250,13 @@ class SeriesReader {
   }
 
   void take(Quantity quantity) {
-    std::vector<Candidate> all = candidates_for(quantity);
+    std::vector<CandidateColumn> all = candidates_for(quantity);
     find_dead(all, quantity);
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return std::tuple(order_of(a), a.column) < std::tuple(order_of(b), b.column);
+    });
     const bool by_name = !choice_.of(quantity).empty();
-    const auto may_be_taken = [&](const Candidate& each) {
+    const auto may_be_taken = [&](const CandidateColumn& each) {
       return by_name || (each.name->role != ColumnRole::set_point && each.name->role != ColumnRole::lateral);
     };
     // A channel that moves though nobody measured with it is worse than a dead measurement.
@@ -306,14 +280,14 @@ class SeriesReader {
     series_.taken[static_cast<std::size_t>(quantity)] = std::move(column);
   }
 
-  void refuse_absent(Quantity quantity, const std::vector<Candidate>& all) {
+  void refuse_absent(Quantity quantity, const std::vector<CandidateColumn>& all) {
     const std::string& wanted = choice_.of(quantity);
     if (!wanted.empty()) {
       return reject(block_.heading + 1, std::string(to_string(quantity)),
                     fmt::format("no column `{}` among `{}`", wanted, fmt::join(headings(), "`, `")));
     }
     std::vector<std::string> others;
-    for (const Candidate& each : all) others.push_back(each.name->heading);
+    for (const CandidateColumn& each : all) others.push_back(each.name->heading);
     reject(
         block_.heading + 1, std::string(to_string(quantity)),
         fmt::format("no measured column of {}, but `{}`, a set point or across the specimen; expected {}_column in the "
@@ -429,11 +403,11 @@ class SeriesReader {
 
   /// The clock is not needed for the curve: one that cannot be read is left out with a word, unless the sheet names it.
   void take_time() {
-    std::vector<Candidate> all = candidates_for(Quantity::time);
+    std::vector<CandidateColumn> all = candidates_for(Quantity::time);
     const bool by_name = !choice_.time.empty();
     if (all.empty() && by_name) return refuse_absent(Quantity::time, all);
     std::map<std::size_t, std::vector<double>> times;
-    for (Candidate& each : all) {
+    for (CandidateColumn& each : all) {
       auto values = times_in(each.column);
       if (!values) {
         each.is_dead = true;
@@ -444,17 +418,24 @@ class SeriesReader {
       each.is_dead = values->size() > 1 && values->front() == values->back() && !each.goes_back;
       times.emplace(each.column, std::move(*values));
     }
-    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-      const auto order = [](const Candidate& each) {
+    std::sort(all.begin(), all.end(), [](const CandidateColumn& a, const CandidateColumn& b) {
+      const auto order = [](const CandidateColumn& each) {
         return std::tuple(each.goes_back, each.is_dead, each.name->rank, !each.has_unit && !each.is_clock_time,
                           each.column);
       };
       return order(a) < order(b);
     });
     if (all.empty()) return;
-    const Candidate& taken = all.front();
+    const CandidateColumn& taken = all.front();
     const auto values = times.find(taken.column);
     if (values == times.end()) return leave_out_time(taken, by_name);
+    if (!taken.name->other_unit.empty() && !by_name) {
+      series_.warnings.push_back(fmt::format(
+          "{}:{}: column `{}` is in `{}` by its heading, in `{}` by the row of units; the clock is not used", file_,
+          block_.unit_line + 1, taken.name->heading, unit_as_written(taken.name->unit),
+          unit_as_written(taken.name->other_unit)));
+      return;
+    }
     TakenColumn column{.heading = taken.name->heading};
     say_choice(Quantity::time, taken, all, column);
     if (taken.is_clock_time) {
@@ -467,7 +448,7 @@ class SeriesReader {
     series_.taken[static_cast<std::size_t>(Quantity::time)] = std::move(column);
   }
 
-  void leave_out_time(const Candidate& clock, bool by_name) {
+  void leave_out_time(const CandidateColumn& clock, bool by_name) {
     for (const std::size_t row : rows_) {
       const std::string_view cell = block_.cell(row, clock.column);
       if (value_at(row, clock.column) || clock_seconds(cell)) continue;
