@@ -17,6 +17,7 @@
 #include "measurement/loading_part.hpp"
 #include "measurement/plausibility.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "measurement/strain_rate.hpp"
 #include "measurement/tester_text.hpp"
@@ -395,7 +396,7 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   const std::string who = fmt::format("specimen {}", one.record.specimen);
   if (!one.test.separated && one.record.test == tester::TestKind::toughness)
     warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
-  constexpr double kStiff = 1.25;
+  constexpr double kStiff = 1.25, kFarOfNotched = 100.0;
   if (one.test.toe_kept != 0.0) {
     warnings.push_back(
         fmt::format("{}: its straight part meets zero stress at {:.2f} % strain; a toe beyond {} % is not compensated: "
@@ -421,6 +422,8 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
     warnings.push_back(
         fmt::format("{}: peak stress {:.3g} Pa is unusual: are force and size right?", who, one.test.peak_stress_pa));
   if (const std::string doubt = doubt_of_rate(one.record, row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
+  if (const std::string doubt = doubt_of_modulus(one.record, one.test.modulus_pa, kFarOfNotched); !doubt.empty())
+    warnings.push_back(who + ": " + doubt);
   if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
     warnings.push_back(
         fmt::format("{}: initial modulus {:.3g} Pa is unusual: are the units of force and the size ({} x {} mm, "

@@ -122,5 +122,12 @@ TEST_F(ColumnChoices, AForceThatIsNotSetToZeroIsDoubted) {
   EXPECT_THAT(import(flipped).warnings, testing::Contains(HasSubstr("did signs get lost?")));
 }
 
+TEST_F(ColumnChoices, AUnitThatMakesNoModulusOfTheMaterialIsDoubted) {
+  const std::string kilonewtons = table("Time (s),Extension (mm),Load (N)\n", "{:.3f},{:.5f},{:.7f}\n", 1.0, 1e-3);
+  EXPECT_THAT(import(kilonewtons).warnings,
+              testing::Contains(HasSubstr("its modulus, 1.2e+06 Pa, is unusual for rigid")));
+  EXPECT_THAT(import(table("Time (s),Extension (mm),Load (N)\n")).warnings, testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace nacre::measurement
