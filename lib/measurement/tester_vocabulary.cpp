@@ -348,7 +348,6 @@ constexpr NamedQuantity kNames[] = {
     t("step elapsed time", 5),
     t("ramp time", 5),
     t("seconds elapsed", 1),
-    t("elapsed", 1),
     t("tijd", 1),
     t("zaman", 1),
     t("시간", 1),
