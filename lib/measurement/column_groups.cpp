@@ -98,22 +98,33 @@ Labelled labelled(const std::string& name, bool at_the_end) {
   return label.empty() ? Labelled{name, ""} : Labelled{joined(words), label};
 }
 
-/// Groups by a label in the headings: extension and force must share at least two.
+/// `probe 1`, `probe1`; not the number of a load cell.
+bool is_specimen_label(std::string_view label) {
+  return names_specimen(label) || is_specimen_word(label.substr(0, label.find(' ')));
+}
+
+/// Groups by a label in the headings: extension and force must share at least two, but specimens may have one extension
+/// for all of their forces.
 std::vector<ColumnGroup> groups_by_label(const TableBlock& block, bool at_the_end) {
   std::map<std::string, std::set<Quantity>> quantities;
   std::vector<std::string> order, labels(block.columns.size());
+  bool has_shared_extension = false;
   for (std::size_t i = 0; i < block.columns.size(); ++i) {
     if (!is_curve_quantity(block.columns[i])) continue;
     labels[i] = labelled(block.columns[i].name, at_the_end).label;
-    if (labels[i].empty()) continue;
+    if (labels[i].empty()) {
+      has_shared_extension = has_shared_extension || block.columns[i].quantity == Quantity::extension;
+      continue;
+    }
     if (!quantities.contains(labels[i])) order.push_back(labels[i]);
     quantities[labels[i]].insert(*block.columns[i].quantity);
   }
   std::vector<ColumnGroup> groups;
   for (const std::string& label : order) {
     const auto& held = quantities[label];
-    if (!held.contains(Quantity::extension) || !held.contains(Quantity::force)) continue;
-    ColumnGroup group{label, {}};
+    const bool shares = !held.contains(Quantity::extension) && has_shared_extension && is_specimen_label(label);
+    if ((!held.contains(Quantity::extension) && !shares) || !held.contains(Quantity::force)) continue;
+    ColumnGroup group{label, {}, shares};
     for (std::size_t i = 0; i < block.columns.size(); ++i) {
       if (labels[i] == label || labels[i].empty()) group.columns.push_back(i);
     }

@@ -187,7 +187,8 @@ class PartFinder {
       const bool filled =
           is_alone || std::any_of(group.columns.begin(), group.columns.end(), [&](std::size_t column) {
             const auto quantity = block.columns[column].quantity;
-            return (quantity == Quantity::extension || quantity == Quantity::force) && !block.cell(row, column).empty();
+            return (quantity == Quantity::force || (quantity == Quantity::extension && !group.shares_extension)) &&
+                   !block.cell(row, column).empty();
           });
       if (filled) rows.push_back(row);
     }

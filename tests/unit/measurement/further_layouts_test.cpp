@@ -129,6 +129,18 @@ TEST_F(FurtherLayouts, BesideEachOtherAreKnownByTheirOrder) {
   }
 }
 
+TEST_F(FurtherLayouts, OfSpecimensOnOneExtensionAreParts) {
+  std::string text = "Zeit [s];Weg [mm];Probe 1 Kraft [N];Probe 2 Kraft [N]\n";
+  for (const Point& each : usual_test()) {
+    const bool is_over = each.extension_mm > 1.1;
+    text += fmt::format("{:.3f};{:.5f};{};{:.4f}\n", each.time_s, each.extension_mm,
+                        is_over ? "" : fmt::format("{:.4f}", 1.1 * each.force_n), each.force_n);
+  }
+  expect_refused(text, "holds 2 tests");
+  expect_read(text, ",part", ",Probe 2");
+  EXPECT_EQ(import(text, ",part", ",Probe 1").specimens.size(), 1U) << all_of(import(text, ",part", ",Probe 1"));
+}
+
 TEST_F(FurtherLayouts, WithMarksThatMayGroupThousandsAreReadAsDecimalsWithAWarning) {
   std::string text = "Time [s];Position [mm];Force [N]\n";
   for (int i = 0; i <= 120; ++i)
