@@ -12,7 +12,8 @@ namespace nacre::measurement {
 struct ColumnChoice {
   std::string extension, force;
   std::string time, strain, stress;
-  std::string unit;  ///< units of columns whose headings have none, `mm kN s`
+  bool extension_falls = false;  ///< in tension: its column counts downwards
+  std::string unit;              ///< units of columns whose headings have none, `mm kN s`
   const std::string& of(Quantity quantity) const {
     switch (quantity) {
       case Quantity::time:

@@ -43,9 +43,25 @@ bool is_label(std::string_view word) {
   return digits || word.size() == 1 || letter_and_digits;
 }
 
-bool is_specimen_word(const std::string& word) {
-  const auto words = specimen_words();
+bool is_specimen_word(std::string_view word) {
+  const auto words = specimen_words().words();
   return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// `probe1`: a specimen's name and number in one word.
+bool names_specimen(std::string_view word) {
+  const std::size_t digits = word.find_first_of("0123456789");
+  return digits != std::string_view::npos && digits > 0 && word.size() - digits <= 3 &&
+         word.find_first_not_of("0123456789", digits) == std::string_view::npos &&
+         is_specimen_word(word.substr(0, digits));
+}
+
+/// Without the number that a spreadsheet gives a heading that occurs again: `travel .1`.
+std::string_view without_count(std::string_view name) {
+  const std::size_t point = name.rfind('.');
+  if (point == std::string_view::npos || point == 0 || point + 1 == name.size() || name.size() - point > 4) return name;
+  if (name.find_first_not_of("0123456789", point + 1) != std::string_view::npos) return name;
+  return trimmed(name.substr(0, point));
 }
 
 struct Labelled {
@@ -64,7 +80,7 @@ Labelled labelled(const std::string& name, bool at_the_end) {
   if (!at_the_end) std::reverse(words.begin(), words.end());
   if (words.size() < 2) return {name, ""};
   std::string label;
-  if (is_label(words.back())) {
+  if (is_label(words.back()) || names_specimen(words.back())) {
     label = words.back();
     words.pop_back();
     if (words.size() > 1 && at_the_end && is_specimen_word(words.back())) {
@@ -82,22 +98,33 @@ Labelled labelled(const std::string& name, bool at_the_end) {
   return label.empty() ? Labelled{name, ""} : Labelled{joined(words), label};
 }
 
-/// Groups by a label in the headings: extension and force must share at least two.
+/// `probe 1`, `probe1`; not the number of a load cell.
+bool is_specimen_label(std::string_view label) {
+  return names_specimen(label) || is_specimen_word(label.substr(0, label.find(' ')));
+}
+
+/// Groups by a label in the headings: extension and force must share at least two, but specimens may have one extension
+/// for all of their forces.
 std::vector<ColumnGroup> groups_by_label(const TableBlock& block, bool at_the_end) {
   std::map<std::string, std::set<Quantity>> quantities;
   std::vector<std::string> order, labels(block.columns.size());
+  bool has_shared_extension = false;
   for (std::size_t i = 0; i < block.columns.size(); ++i) {
     if (!is_curve_quantity(block.columns[i])) continue;
     labels[i] = labelled(block.columns[i].name, at_the_end).label;
-    if (labels[i].empty()) continue;
+    if (labels[i].empty()) {
+      has_shared_extension = has_shared_extension || block.columns[i].quantity == Quantity::extension;
+      continue;
+    }
     if (!quantities.contains(labels[i])) order.push_back(labels[i]);
     quantities[labels[i]].insert(*block.columns[i].quantity);
   }
   std::vector<ColumnGroup> groups;
   for (const std::string& label : order) {
     const auto& held = quantities[label];
-    if (!held.contains(Quantity::extension) || !held.contains(Quantity::force)) continue;
-    ColumnGroup group{label, {}};
+    const bool shares = !held.contains(Quantity::extension) && has_shared_extension && is_specimen_label(label);
+    if ((!held.contains(Quantity::extension) && !shares) || !held.contains(Quantity::force)) continue;
+    ColumnGroup group{label, {}, shares};
     for (std::size_t i = 0; i < block.columns.size(); ++i) {
       if (labels[i] == label || labels[i].empty()) group.columns.push_back(i);
     }
@@ -107,7 +134,9 @@ std::vector<ColumnGroup> groups_by_label(const TableBlock& block, bool at_the_en
 }
 
 /// What a heading shares with its like in another group.
-std::string key_of(const ColumnName& name) { return name.name + "|" + bare_unit(name.unit); }
+std::string key_of(const ColumnName& name) {
+  return std::string(without_count(name.name)) + "|" + bare_unit(name.unit);
+}
 
 /// Groups by headings that occur again, named by the labels in a line above.
 std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
@@ -151,6 +180,35 @@ std::vector<ColumnGroup> groups_by_occurrence(const TableBlock& block) {
   return groups;
 }
 
+/// Groups of columns whose names repeat in one order, whatever their units: `Time;Load;Time;Load`.
+std::vector<ColumnGroup> groups_by_period(const TableBlock& block) {
+  std::vector<std::size_t> named;
+  for (std::size_t i = 0; i < block.columns.size(); ++i) {
+    if (!block.columns[i].heading.empty()) named.push_back(i);
+  }
+  const auto name_of = [&](std::size_t place) { return without_count(block.columns[named[place]].name); };
+  for (std::size_t period = 2; 2 * period <= named.size(); ++period) {
+    if (named.size() % period != 0) continue;
+    bool repeats = true, has_extension = false, has_force = false;
+    for (std::size_t i = 0; i < named.size() && repeats; ++i) repeats = name_of(i) == name_of(i % period);
+    for (std::size_t i = 0; i < period; ++i) {
+      has_extension = has_extension || block.columns[named[i]].quantity == Quantity::extension;
+      has_force = has_force || block.columns[named[i]].quantity == Quantity::force;
+    }
+    if (!repeats || !has_extension || !has_force) continue;
+    std::vector<ColumnGroup> groups;
+    for (std::size_t first = 0; first < named.size(); first += period) {
+      const std::size_t label = named[first];
+      const bool labelled = label < block.labels.size() && !block.labels[label].empty();
+      groups.push_back({labelled ? block.labels[label] : std::to_string(groups.size() + 1),
+                        {named.begin() + static_cast<std::ptrdiff_t>(first),
+                         named.begin() + static_cast<std::ptrdiff_t>(first + period)}});
+    }
+    return groups;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoice& choice) {
@@ -164,6 +222,7 @@ std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoi
   // Who names both columns exactly has chosen the specimen.
   if (is_exact(Quantity::extension) && is_exact(Quantity::force)) return {all};
   if (auto groups = groups_by_occurrence(block); !groups.empty()) return groups;
+  if (auto groups = groups_by_period(block); !groups.empty()) return groups;
   for (const bool at_the_end : {true, false}) {
     if (auto groups = groups_by_label(block, at_the_end); !groups.empty()) return groups;
   }

@@ -80,7 +80,7 @@ tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, cons
                                                     const ColumnChoice& choice) {
   const Result<DecodedText> text = decoded(bytes);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
-  const std::vector<std::string_view> lines = lines_of(text->text);
+  const std::vector<std::string_view> lines = export_lines(text->text);
   const auto tables = tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   const ExportParts parts = parts_of(*tables, choice, file);

@@ -10,10 +10,7 @@ namespace {
 
 bool tells_role(std::string_view cell) {
   if (recognise_column(cell).role != ColumnRole::measured) return true;
-  const std::string words = plain_words(cell);
-  const auto preferred = preferred_words();
-  return std::any_of(preferred.begin(), preferred.end(),
-                     [&](std::string_view word) { return holds_word(words, word); });
+  return preferred_words().finds_one(plain_words(cell));
 }
 
 }  // namespace

@@ -17,7 +17,9 @@
 #include "measurement/loading_part.hpp"
 #include "measurement/plausibility.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "measurement/strain_rate.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 
@@ -116,8 +118,9 @@ class Exports {
 
   /// Different columns of one file may be different tests.
   static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
-    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension, choice.force,
-                                                          choice.time, choice.strain, choice.stress, choice.unit);
+    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension_falls,
+                                                          choice.extension, choice.force, choice.time, choice.strain,
+                                                          choice.stress, choice.unit);
   }
 
   const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
@@ -261,8 +264,12 @@ void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<d
     warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
                                    imported.record.specimen, rate_per_s));
   } else {
-    imported.decisions.push_back(fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
-                                             row.planned_rate_per_s ? "the planned one" : "assumed"));
+    const std::string said = fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
+                                         row.planned_rate_per_s ? "the planned one" : "assumed");
+    imported.decisions.push_back(said);
+    if (!row.planned_rate_per_s)
+      warnings.push_back(fmt::format("specimen {}: {}; expected strain_rate_per_s in the sheet, or time_column",
+                                     imported.record.specimen, said));
   }
 }
 
@@ -284,8 +291,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
       .gauge_mm = row.gauge_mm,
       .decisions = from.decisions};
   tester::Curve curve = nominal_curve(from, row, {});
-  const PullStart start = pull_start(from.time_s, curve);
-  if (const auto implausible = implausible_record(from, start.row, shown_file)) return tl::unexpected(*implausible);
+  if (const auto implausible = implausible_record(from, shown_file)) return tl::unexpected(*implausible);
   const auto units = settle_units(from, row, settings.toe);
   if (!units) return fault("", units.error());
   for (const std::string& said : units->said) {
@@ -307,6 +313,8 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   // The area of a modulus test that is unloaded is noise; linear_part() has checked its sign.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
+  for (const std::string& doubt : doubts_of_course(curve.stress_pa))
+    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt));
   imported.test = *test;
   imported.provenance = provenance_of(from, row);
   set_rate(from, row, time_s, curve, imported, warnings);
@@ -388,7 +396,7 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   const std::string who = fmt::format("specimen {}", one.record.specimen);
   if (!one.test.separated && one.record.test == tester::TestKind::toughness)
     warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
-  constexpr double kStiff = 1.25;
+  constexpr double kStiff = 1.25, kFarOfNotched = 100.0;
   if (one.test.toe_kept != 0.0) {
     warnings.push_back(
         fmt::format("{}: its straight part meets zero stress at {:.2f} % strain; a toe beyond {} % is not compensated: "
@@ -414,6 +422,8 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
     warnings.push_back(
         fmt::format("{}: peak stress {:.3g} Pa is unusual: are force and size right?", who, one.test.peak_stress_pa));
   if (const std::string doubt = doubt_of_rate(one.record, row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
+  if (const std::string doubt = doubt_of_modulus(one.record, one.test.modulus_pa, kFarOfNotched); !doubt.empty())
+    warnings.push_back(who + ": " + doubt);
   if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
     warnings.push_back(
         fmt::format("{}: initial modulus {:.3g} Pa is unusual: are the units of force and the size ({} x {} mm, "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/statistics.hpp"
 
@@ -9,8 +10,9 @@ namespace nacre::measurement {
 namespace {
 
 constexpr double kFrom = 0.1, kTo = 0.4;             // of the peak stress
-constexpr double kStalled = 0.3, kJump = 3.0;          // of the expected strain of a stretch
+constexpr double kStalled = 0.3, kJump = 3.0;        // of the expected strain of a stretch
 constexpr std::size_t kFewestRows = 5, kFewest = 3;  // of a stretch; left out at least
+constexpr double kBeyondNoise = 8.0;                 // standard deviations by which the strain grows along a stretch
 
 double clock_at(const std::vector<double>& time_s, std::size_t row) {
   return time_s.empty() ? static_cast<double>(row) : time_s[row];
@@ -70,13 +72,25 @@ Rise rise_of(const tester::Curve& curve, double from, double to) {
   return rise;
 }
 
+double noise_of(const std::vector<double>& values, std::size_t count) {
+  constexpr double kMedianOfNormal = 0.6745;
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    bends.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+  return bends.empty() ? 0.0 : quantile(std::move(bends), 0.5) / (kMedianOfNormal * std::sqrt(6.0));
+}
+
 PullStart pull_start(const std::vector<double>& time_s, const tester::Curve& curve) {
   if (curve.size() < 2 * kFewestRows) return {};
   const Rise rise = rise_of(curve, kFrom, kTo);
   if (rise.last - rise.first < 2) return {};
   const double speed = speed_of(time_s, curve, rise);
   if (!(speed > 0.0)) return {};
-  const std::size_t stretch = std::max(kFewestRows, (rise.last - rise.first) / 3);
+  const double step = speed * (clock_at(time_s, rise.last) - clock_at(time_s, rise.first)) /
+                      static_cast<double>(rise.last - rise.first);
+  const auto beyond_noise = static_cast<std::size_t>(
+      std::min(kBeyondNoise * noise_of(curve.strain, rise.last + 1) / step, static_cast<double>(rise.last)));
+  const std::size_t stretch = std::max({kFewestRows, (rise.last - rise.first) / 3, beyond_noise});
   for (std::size_t end = rise.first; end > 0;) {
     std::size_t begin = end > stretch ? end - stretch : 0;
     while (begin > 0 && clock_at(time_s, begin) == clock_at(time_s, end)) --begin;

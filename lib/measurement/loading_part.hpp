@@ -25,4 +25,7 @@ struct Rise {
 };
 Rise rise_of(const tester::Curve& curve, double from, double to);
 
+/// Standard deviation of the noise of the first `count` values, from their second differences: a ramp has none.
+double noise_of(const std::vector<double>& values, std::size_t count);
+
 }  // namespace nacre::measurement

@@ -13,6 +13,8 @@ namespace nacre::measurement {
 namespace {
 
 constexpr double kLargeEnough = 0.02;  // of the largest number: below, ratios are noise
+constexpr double kHigh = 0.2;          // of the largest number: a hundredfold jump and back is no noise
+constexpr std::size_t kPairRows = 12;  // between there and back
 constexpr double kPowerOfTen = 0.06;   // of the logarithm: how near a jump is to a power of ten
 
 struct NamedFactor {
@@ -91,8 +93,7 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
   if (values.size() < 3) return std::nullopt;
   double largest = 0.0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
-  std::vector<double> steps;
-  std::optional<std::size_t> up;
+  std::optional<std::size_t> up, pair;
   double usual_step = 0.0, most_step = 0.0;  // mean step and the largest but the jumps
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double from = values[i - 1], to = values[i];
@@ -101,8 +102,12 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
     const double step = std::abs(to - from);
     const bool sudden = i > 3 && step > 10.0 * std::max(most_step, usual_step);
     if (power != 0.0 && up && power * power_of_ten(values[*up - 1], values[*up]) < 0.0) return up;
+    if (std::abs(power) > 1.0 && std::max(std::abs(from), std::abs(to)) > kHigh * largest) {
+      if (pair && i - *pair <= kPairRows && power * power_of_ten(values[*pair - 1], values[*pair]) < 0.0) return pair;
+      pair = i;
+    }
     if (power != 0.0 && sudden) {
-      if (once && power > 0.0) return i;
+      if (once && power > 0.0 && std::abs(from) > kLargeEnough * largest) return i;
       up = i;
       continue;
     }
@@ -112,7 +117,7 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
   return std::nullopt;
 }
 
-std::optional<ImportFault> implausible_record(const TesterRecord& record, std::size_t begin, const std::string& file) {
+std::optional<ImportFault> implausible_record(const TesterRecord& record, const std::string& file) {
   const bool has_extension = !record.extension_mm.empty();
   const auto& extension = has_extension ? record.extension_mm : record.strain;
   const auto& force = record.force_n.empty() ? record.stress_pa : record.force_n;
@@ -127,20 +132,44 @@ std::optional<ImportFault> implausible_record(const TesterRecord& record, std::s
                        fmt::format("the {} does not move, expected another column, named in the sheet as {}_column",
                                    to_string(abscissa), to_string(abscissa))};
   if (auto fault = jump_fault(record, abscissa, extension, true, file)) return fault;
-  if (auto fault = jump_fault(record, ordinate, force, false, file)) return fault;
+  if (auto fault = jump_fault(record, ordinate, force, true, file)) return fault;
   const auto peak = static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
   const double least = *std::min_element(force.begin(), force.end());
-  const std::vector<double> loading(extension.begin() + static_cast<std::ptrdiff_t>(std::min(begin, peak)),
+  constexpr double kLoaded = 0.05;  // of the peak: before, the grips may have moved either way
+  std::size_t begin = peak;
+  while (begin > 0 && force[begin - 1] > kLoaded * force[peak]) --begin;
+  const std::vector<double> loading(extension.begin() + static_cast<std::ptrdiff_t>(begin),
                                     extension.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
   const double moved = loading.back() - loading.front();
   if (force[peak] > 0.0 && -least < force[peak] && loading.size() > 2 && moved < -0.5 * range_of(loading)) {
     return ImportFault{
         file, record.line[peak], heading_of(record, abscissa),
         fmt::format("the {} falls from {:.5g} to {:.5g} while the force rises: the position counts "
-                    "downwards; expected a column that grows in tension, named in the sheet as {}_column",
-                    to_string(abscissa), loading.front(), loading.back(), to_string(abscissa))};
+                    "downwards; expected a column that grows in tension, named in the sheet as {}_column{}",
+                    to_string(abscissa), loading.front(), loading.back(), to_string(abscissa),
+                    has_extension ? ", or the same with a minus sign before its name (`-Position (mm)`)" : "")};
   }
   return std::nullopt;
+}
+
+std::vector<std::string> doubts_of_course(const std::vector<double>& stress_pa) {
+  constexpr double kNegative = 0.02, kShareAtLimit = 0.05;  // of the peak; of the rows
+  constexpr std::ptrdiff_t kRowsAtLimit = 10;
+  std::vector<std::string> doubts;
+  const auto peak = std::max_element(stress_pa.begin(), stress_pa.end());
+  if (peak == stress_pa.end() || !(*peak > 0.0)) return doubts;
+  const double least = *std::min_element(stress_pa.begin(), peak + 1);
+  if (-least > kNegative * *peak)
+    doubts.push_back(
+        fmt::format("the force falls to {:.0f} % of its peak before it: was it not set to zero, or did signs "
+                    "get lost?",
+                    100.0 * least / *peak));
+  const auto left = std::find_if(peak, stress_pa.end(), [&](double value) { return value != *peak; });
+  if (left - peak >= kRowsAtLimit &&
+      static_cast<double>(left - peak) > kShareAtLimit * static_cast<double>(stress_pa.size()))
+    doubts.push_back(
+        fmt::format("the force stays at its largest value for {} rows: is the load cell at its limit?", left - peak));
+  return doubts;
 }
 
 tl::expected<AssumedUnits, std::string> assumed_units(const TesterRecord& record, const UnitEvidence& evidence) {

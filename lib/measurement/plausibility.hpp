@@ -14,8 +14,12 @@ namespace nacre::measurement {
 std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool once);
 
 /// The first of: a force or an extension that does not move, jumps by powers of ten, an extension that falls while the
-/// force rises. `begin`: row at which the pull begins. Nothing where the record is plausible.
-std::optional<ImportFault> implausible_record(const TesterRecord& record, std::size_t begin, const std::string& file);
+/// force rises. Nothing where the record is plausible.
+std::optional<ImportFault> implausible_record(const TesterRecord& record, const std::string& file);
+
+/// Doubts about the course of the force from the pull's beginning on, as sentences: it is negative on the way to its
+/// peak, or stays at its largest value to the last digit.
+std::vector<std::string> doubts_of_course(const std::vector<double>& stress_pa);
 
 /// Units for columns whose headings have none: those with which modulus, peak stress and failure strain are ones of the
 /// material. Of several none is taken.

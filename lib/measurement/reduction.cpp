@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/statistics.hpp"
@@ -69,15 +70,6 @@ std::vector<double> nearest_rising(const std::vector<double>& values) {
   return rising;
 }
 
-/// Standard deviation of the noise of a series, from its second differences: a ramp has none.
-double noise_of(const std::vector<double>& values, std::size_t count) {
-  constexpr double kMedianOfNormal = 0.6745;
-  std::vector<double> bends;
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    bends.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
-  return bends.empty() ? 0.0 : quantile(std::move(bends), 0.5) / (kMedianOfNormal * std::sqrt(6.0));
-}
-
 /// Rows of first loading: every one whose strain exceeds the earlier ones; where the strain is noisy, every one that is
 /// not below them by more than noise. Only the highest of noisy rows would lean to one side.
 FirstLoading first_loading(const tester::Curve& curve, std::size_t peak) {
@@ -116,25 +108,6 @@ struct SlopeWindow {
   std::size_t first = 0, last = 0;
   std::size_t points() const { return last - first + 1; }
 };
-
-/// Least squares; the slope's error is that of its residuals.
-FittedLine fit(const std::vector<double>& x, const std::vector<double>& y, SlopeWindow window) {
-  const double count = static_cast<double>(window.points());
-  double mean_x = 0.0, mean_y = 0.0, squares = 0.0, products = 0.0, left = 0.0;
-  for (std::size_t k = window.first; k <= window.last; ++k) {
-    mean_x += x[k] / count;
-    mean_y += y[k] / count;
-  }
-  for (std::size_t k = window.first; k <= window.last; ++k) {
-    squares += (x[k] - mean_x) * (x[k] - mean_x);
-    products += (x[k] - mean_x) * (y[k] - mean_y);
-  }
-  const double slope = products / squares;
-  for (std::size_t k = window.first; k <= window.last; ++k)
-    left += std::pow(y[k] - mean_y - slope * (x[k] - mean_x), 2);
-  const double error = count > 2.0 ? std::sqrt(left / (count - 2.0) / squares) : 0.0;
-  return {slope, error, mean_x - mean_y / slope};
-}
 
 /// Deming regression where the strain is noisy (errors in both, their ratio from the record), else least squares. The
 /// slope's error is that of its residuals.
@@ -287,41 +260,6 @@ tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, do
   return shifted;
 }
 
-constexpr double kStill = 0.25, kMoving = 0.5;  // of a rate
-constexpr std::size_t kStretches = 4;           // of the window of the rate
-
-/// The longest part of a window in which the strain moves at half of `rate` and more.
-SlopeWindow longest_moving(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window,
-                           double rate) {
-  SlopeWindow longest{window.first, window.first};
-  std::size_t begin = window.first;
-  for (std::size_t i = window.first; i + kEnoughPoints <= window.last; ++i) {
-    const std::size_t next = i + kEnoughPoints;
-    if (strains[next] - strains[i] < kMoving * rate * (times[next] - times[i])) {
-      begin = i + 1;
-    } else if (next - begin > longest.last - longest.first) {
-      longest = {begin, next};
-    }
-  }
-  return longest;
-}
-
-/// Where a test was held in a window, the part in which it moved; else the window.
-SlopeWindow without_hold(const std::vector<double>& times, const std::vector<double>& strains, SlopeWindow window) {
-  if (window.points() < 2 * kStretches * kEnoughPoints) return window;
-  double slowest = 0.0, fastest = 0.0;
-  for (std::size_t i = 0; i < kStretches; ++i) {
-    const SlopeWindow stretch{window.first + i * window.points() / kStretches,
-                              window.first + (i + 1) * window.points() / kStretches - 1};
-    const double rate = fit(times, strains, stretch).slope;
-    slowest = i == 0 ? rate : std::min(slowest, rate);
-    fastest = std::max(fastest, rate);
-  }
-  if (slowest > kStill * fastest) return window;
-  const SlopeWindow moving = longest_moving(times, strains, window, fastest);
-  return moving.points() >= kEnoughPoints ? moving : window;
-}
-
 }  // namespace
 
 tester::Curve forward_part(const tester::Curve& curve) {
@@ -379,29 +317,6 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
   test.failure_strain = test.separated ? test.curve.strain.back() : largest_strain(test.curve, test.curve.size());
   test.toughness_pa = tester::area_under(test.curve);
   return test;
-}
-
-std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve) {
-  tester::Curve ticks;  // rows between two ticks of the clock have the same time
-  std::vector<double> times;
-  const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
-                                             curve.stress_pa.begin());
-  for (std::size_t i = 0; i < std::min(time_s.size(), peak + 1); ++i) {
-    if (!times.empty() && time_s[i] <= times.back()) continue;
-    times.push_back(time_s[i]);
-    ticks.strain.push_back(curve.strain[i]);
-    ticks.stress_pa.push_back(curve.stress_pa[i]);
-  }
-  if (times.size() < kFewestPoints) return std::nullopt;
-  SlopeWindow window{0, times.size() - 1};
-  for (const auto& [from, to] : {std::pair(0.1, 0.4), std::pair(0.05, 0.6), std::pair(0.0, 1.0)}) {
-    const Rise rise = rise_of(ticks, from, to);
-    window = {rise.first, rise.last};
-    if (window.points() >= kEnoughPoints) break;
-  }
-  if (window.points() < kFewestPoints) window = {0, times.size() - 1};
-  const double rate_per_s = std::abs(fit(times, ticks.strain, without_hold(times, ticks.strain, window)).slope);
-  return rate_per_s > 0.0 ? std::optional(rate_per_s) : std::nullopt;
 }
 
 }  // namespace nacre::measurement

@@ -1,9 +1,6 @@
 #pragma once
 // From force and travel to the properties of a specimen (thesis 2.2.2; ASTM D638, 11 and Annex A1).
 
-#include <optional>
-#include <vector>
-
 #include "base/result.hpp"
 #include "tester/curve.hpp"
 
@@ -57,10 +54,5 @@ struct ReducedTest {
 
 /// `curve`: nominal stress over nominal strain as recorded, at least five points. Error as of linear_part().
 Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe);
-
-/// Strain rate of loading, 1/s: the slope of strain over time by least squares between 10 and 40 % of the peak stress;
-/// where fewer than five points lie there, up to the peak. Of a test that was held there, the rate at which it moves.
-/// Nothing without time, or where time does not advance.
-std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve);
 
 }  // namespace nacre::measurement

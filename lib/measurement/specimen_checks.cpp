@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,21 +22,14 @@ double usual_modulus_pa(double rigid_fraction) {
 }
 
 /// A modulus that no mixture of this kind has: strains in per cent make it a hundredth.
+/// A notch in a set has a modulus of its own.
 void collect_modulus_doubt(const SpecimenRecord& record, std::vector<std::string>& doubts) {
-  constexpr double kFar = 20.0, kPerCent = 100.0;
+  constexpr double kAnyFactor = std::numeric_limits<double>::infinity();
   if (!record.design.mixture() || record.curve.size() < kFewestCurveRows || record.modulus_pa) return;
   const auto part = linear_part(record.curve);
-  if (!part || !(part->slope_pa > 0.0)) return;
-  const double usual = usual_modulus_pa(record.design.rigid_fraction());
-  const double ratio = part->slope_pa / usual;
-  if (ratio > 1.0 / kFar && ratio < kFar) return;
-  const bool per_cent = ratio * kPerCent > 1.0 / kFar && ratio * kPerCent < kFar && ratio < 1.0;
-  if (!per_cent && record.test == tester::TestKind::toughness) return;  // a notch has a modulus of its own
-  doubts.push_back(fmt::format(
-      "column curve: its modulus, {:.3g} Pa, is unusual for {}{}", part->slope_pa, record.design.name(),
-      per_cent
-          ? fmt::format("; is strain in per cent, not a ratio? Then it would be {:.3g} Pa", kPerCent * part->slope_pa)
-          : "; are the units strain 1 and stress Pa?"));
+  if (!part) return;
+  if (const std::string doubt = doubt_of_modulus(record, part->slope_pa, kAnyFactor); !doubt.empty())
+    doubts.push_back("column curve: " + doubt);
 }
 
 /// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
@@ -56,6 +50,19 @@ void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>
 }
 
 }  // namespace
+
+std::string doubt_of_modulus(const SpecimenRecord& record, double modulus_pa, double far_of_notched) {
+  constexpr double kFar = 20.0, kPerCent = 100.0;
+  if (!record.design.mixture() || !(modulus_pa > 0.0)) return "";
+  const double ratio = modulus_pa / usual_modulus_pa(record.design.rigid_fraction());
+  const bool per_cent = ratio < 1.0 / kFar && ratio * kPerCent > 1.0 / kFar && ratio * kPerCent < kFar;
+  const double far = record.test == tester::TestKind::toughness && !per_cent ? far_of_notched : kFar;
+  if (ratio > 1.0 / far && ratio < far) return "";
+  return fmt::format(
+      "its modulus, {:.3g} Pa, is unusual for {}{}", modulus_pa, record.design.name(),
+      per_cent ? fmt::format("; is strain in per cent, not a ratio? Then it would be {:.3g} Pa", kPerCent * modulus_pa)
+               : "; are the units of strain and stress, or of extension and force, right?");
+}
 
 std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen) {
   const auto lacks = [](const char* column, std::string reason) { return RejectedRow{0, column, std::move(reason)}; };

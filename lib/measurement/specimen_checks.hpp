@@ -24,6 +24,10 @@ std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen);
 /// Why no game can use the specimen as a valid one: a missing result, else an implausible value. Line 0.
 std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen);
 
+/// A doubt where no mixture of the inks has such a modulus, by a factor of 20, of notched ones that of
+/// `far_of_notched`; or where it would have it, were its strain in per cent. Else empty.
+std::string doubt_of_modulus(const SpecimenRecord& specimen, double modulus_pa, double far_of_notched);
+
 /// Doubts about a usable specimen that its own record raises, each as a sentence that begins with its column: units
 /// that somebody forgot to convert, a value that contradicts its curve, a test that was ended too early.
 std::vector<std::string> doubts_about(const SpecimenRecord& specimen);

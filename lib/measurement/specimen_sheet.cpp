@@ -282,11 +282,15 @@ class SheetReader {
     record.note = text("note");
     if (record.valid && record.test == tester::TestKind::tensile && !record.design.mixture())
       reject("pattern", fmt::format("`{}`: {}", text("pattern"), kTensileIsHomogeneous));
-    row.columns = {.extension = text("extension_column"),
+    std::string extension = text("extension_column");
+    const bool falls = extension.starts_with('-');
+    if (falls) extension = trimmed(std::string_view(extension).substr(1));
+    row.columns = {.extension = extension,
                    .force = text("force_column"),
                    .time = text("time_column"),
                    .strain = text("strain_column"),
                    .stress = text("stress_column"),
+                   .extension_falls = falls,
                    .unit = text("unit")};
     for (const std::string& name : heading_) {
       if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name))

@@ -47,7 +47,8 @@ class TableFinder {
       if (fault_) return tl::unexpected(*fault_);
       return std::move(tables_);
     }
-    if (read_fixed_width()) {
+    for (const char blanks : {kGaps, kBlanks}) {
+      if (!read_between_blanks(blanks)) continue;
       if (fault_) return tl::unexpected(*fault_);
       return std::move(tables_);
     }
@@ -288,6 +289,10 @@ class TableFinder {
         if (numbers < 2) before_.push_back(next);
         continue;
       }
+      if (numbers == 2 && is_statistics(block)) {
+        ++block.statistics;
+        continue;
+      }
       const bool directly_below = !after_gap && title.empty();
       if (numbers == 2 || (numbers == 1 && directly_below && !block.lines.empty())) {
         if (doubtful && directly_below) return refuse_damage(block, *doubtful);
@@ -311,6 +316,17 @@ class TableFinder {
     if (block.lines.empty() && doubtful) return refuse_damage(block, *doubtful);
     close(std::move(block));
     return next;
+  }
+
+  /// Whether a row sums up others: its first cell is such a word, where rows of the record have none.
+  bool is_statistics(const TableBlock& block) const {
+    const auto first = std::find_if(cells_.begin(), cells_.end(), [](auto cell) { return !cell.empty(); });
+    if (first == cells_.end() || !has_letter(*first) || is_measured(*first)) return false;
+    std::string words = plain_words(*first);
+    if (words.ends_with(':')) words.pop_back();
+    if (!is_statistic(words)) return false;
+    const auto column = static_cast<std::size_t>(first - cells_.begin());
+    return block.lines.size() < 2 || block.cell(0, column) != *first;
   }
 
   /// A line with one cell among rows of many is a title, unless it is a row that was cut.
@@ -383,10 +399,10 @@ class TableFinder {
     return true;
   }
 
-  /// Columns that runs of blanks separate, where no delimiter gives a table.
-  bool read_fixed_width() {
-    if (score_of(lines_, kGaps) <= 0.0) return false;
-    const ExportTables before = std::exchange(tables_, {.delimiter = kGaps, .blocks = {}});
+  /// Columns that runs of blanks separate, or single ones, where no delimiter gives a table.
+  bool read_between_blanks(char blanks) {
+    if (score_of(lines_, blanks) <= 0.0) return false;
+    const ExportTables before = std::exchange(tables_, {.delimiter = blanks, .blocks = {}});
     has_numbers_ = true;
     read();
     if (!tables_.blocks.empty() || fault_) return true;

@@ -34,6 +34,7 @@ struct TableBlock {
   std::vector<std::size_t> begins;  ///< of each row in `cells`, and the end
   std::vector<std::string_view> cells;
   std::vector<TableBreak> breaks;
+  std::size_t statistics = 0;    ///< rows of means and deviations, which are left out
   std::size_t ignored_rows = 0;  ///< rows of numbers below an unknown heading, which are left out
 
   std::size_t rows() const { return lines.size(); }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "base/csv.hpp"
 #include "measurement/tester_text.hpp"
@@ -10,34 +13,52 @@
 namespace nacre::measurement {
 namespace {
 
-/// Words of names that tell where an extension was recorded; any other name is ambiguous.
-constexpr std::array<std::string_view, 12> kGripWords = {"crosshead", "travel", "traverse",    "traversenweg",
-                                                         "weg",       "stroke", "standardweg", "course",
-                                                         "carrera",   "corsa",  "ストローク",  "横梁"};
-constexpr std::array<std::string_view, 11> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
-                                                                 "feindehnung",  "feindehnungsaufnehmer",
-                                                                 "wegaufnehmer", "extensometre",
-                                                                 "extensometro", "estensimetro",
-                                                                 "estensometro", "伸び計",
-                                                                 "引伸计"};
-
-template <class Words>
-bool holds_any(std::string_view name, const Words& words) {
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return holds_word(name, word); });
+/// Words of names that tell that an extension is the travel of the grips; extensometers have a rank of their own.
+const WordFinder& grip_words() {
+  static constexpr std::string_view kWords[] = {"crosshead",
+                                                "cross head",
+                                                "travel",
+                                                "traverse",
+                                                "traversenweg",
+                                                "traversenposition",
+                                                "weg",
+                                                "verfahrweg",
+                                                "stroke",
+                                                "standardweg",
+                                                "course",
+                                                "carrera",
+                                                "corsa",
+                                                "cruceta",
+                                                "traversa",
+                                                "querhaupt",
+                                                "querhauptweg",
+                                                "maschinenweg",
+                                                "kolbenweg",
+                                                "actuator",
+                                                "piston",
+                                                "grip separation",
+                                                "jaw separation",
+                                                "jaw travel",
+                                                "ストローク",
+                                                "クロスヘッド",
+                                                "横梁",
+                                                "夹头位移",
+                                                "行程"};
+  static const WordFinder finder(kWords);
+  return finder;
 }
+constexpr int kExtensometerRank = 9;
 
-/// Whether the name holds a marker, or a compound word that begins or ends with one (Sollkraft, Kraftsollwert).
-bool holds_marker(std::string_view name, std::span<const std::string_view> words) {
-  constexpr std::size_t kLongEnough = 4;
+/// Parts of the machine: another word of the heading tells what was measured there (`Actuator Force`).
+constexpr std::array<std::string_view, 12> kPlaces = {"actuator",  "crosshead",    "cross head", "traverse",
+                                                      "querhaupt", "traversa",     "cruceta",    "横梁",
+                                                      "橫樑",      "クロスヘッド", "作动器",     "夹头"};
+
+/// German words that begin or end compounds (Sollkraft, Kraftsollwert, Breitenaenderung), of one kind.
+bool is_in_compound(std::string_view name, std::span<const std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
-    if (holds_word(name, word)) return true;
-    if (word.size() < kLongEnough) return false;
     const std::size_t at = name.find(word);
-    const bool german = word == "soll" || word == "sollwert" || word == "vorgabe" || word == "rohwert" ||
-                        word == "setpoint" || word == "command" || word == "consigne" || word == "quer" ||
-                        word == "breite";
-    if (at == std::string_view::npos || !german) return false;
-    return !(word == "quer" && name.substr(at).starts_with("querhaupt"));
+    return at != std::string_view::npos && !(word == "quer" && name.substr(at).starts_with("querhaupt"));
   });
 }
 
@@ -87,12 +108,33 @@ std::optional<NameAndUnit> unit_in_brackets(const std::string& name) {
   return std::nullopt;
 }
 
+/// Whether each bracket of the text is closed in it.
+bool is_balanced(std::string_view text) {
+  int depth = 0;
+  for (const char letter : text) {
+    depth += kBrackets.find(letter) != std::string_view::npos;
+    depth -= kClosing.find(letter) != std::string_view::npos;
+    if (depth < 0) return false;
+  }
+  return depth == 0;
+}
+
+/// A factor before a unit, `1/100` or `10^-3`, belongs to it; so does a number after `in`.
 std::optional<NameAndUnit> unit_at_the_end(const std::string& name) {
   for (const std::string_view mark : {" in ", " en ", "/", " ", ",", ":", "-"}) {
     const std::size_t at = name.rfind(mark);
     if (at == std::string::npos || at == 0) continue;
-    const std::string unit = bare_unit(std::string_view(name).substr(at + mark.size()));
-    if (is_bare_unit(unit)) return NameAndUnit{std::string(trimmed(std::string_view(name).substr(0, at))), unit};
+    const std::string_view tail = std::string_view(name).substr(at + mark.size());
+    const std::string unit = bare_unit(tail);
+    const bool has_number = !unit.empty() && unit.front() >= '0' && unit.front() <= '9';
+    if (!is_balanced(tail) || !is_bare_unit(unit) || (has_number && mark.size() < 2)) continue;
+    const std::string_view before = trimmed(std::string_view(name).substr(0, at));
+    const std::size_t word = before.find_last_of(' ') + 1;
+    const std::string_view last = before.substr(word);
+    if (last.find_first_of("0123456789") != std::string_view::npos &&
+        last.find_first_of("/^*") != std::string_view::npos)
+      return NameAndUnit{std::string(trimmed(before.substr(0, word))), std::string(last) + " " + unit};
+    return NameAndUnit{std::string(before), unit};
   }
   return std::nullopt;
 }
@@ -111,16 +153,16 @@ std::optional<NameAndUnit> unit_between(const std::string& name) {
 /// it holds a word of headings.
 NameAndUnit unit_apart(const std::string& name) {
   if (auto found = unit_in_brackets(name)) return *found;
+  const std::vector<FoundQuantity> names = quantities_in(name);
+  const auto is_whole = [&](const FoundQuantity& each) { return each.name->word == name; };
+  if (std::any_of(names.begin(), names.end(), is_whole)) return {name, ""};  // `Fecha y hora` is not in hours
   if (auto found = unit_at_the_end(name)) return *found;
   if (auto found = unit_between(name)) return *found;
   const std::vector<Bracketed> groups = brackets_of(name);
   constexpr std::size_t kLongestUnit = 12;
   if (groups.empty() || groups.back().end != name.size() || groups.back().begin == 0) return {name, ""};
   const std::string& last = groups.back().text;
-  const auto is_known = [&](const NamedQuantity& each) { return holds_word(last, each.word); };
-  if (last.empty() || last.size() > kLongestUnit ||
-      std::any_of(quantity_names().begin(), quantity_names().end(), is_known))
-    return {name, ""};
+  if (last.empty() || last.size() > kLongestUnit || !quantities_in(last).empty()) return {name, ""};
   return {std::string(trimmed(std::string_view(name).substr(0, groups.back().begin))), last};
 }
 
@@ -136,27 +178,29 @@ std::string as_written(std::string_view heading, const std::string& unit) {
   return std::string(bracketed ? heading.substr(at - 1, unit.size() + 2) : heading.substr(at, unit.size()));
 }
 
-/// The longest name that a heading holds, then the one with the smallest rank.
-void find_quantity(ColumnName& column) {
-  int best = 100;
-  std::size_t longest = 0;
-  for (const NamedQuantity& word : quantity_names()) {
-    const bool is_short = word.word.size() <= 2;
-    if (is_short ? column.name != word.word : !holds_word(column.name, word.word)) continue;
-    if (word.word.size() < longest || (word.word.size() == longest && word.rank >= best)) continue;
-    longest = word.word.size();
-    best = word.rank;
-    column.quantity = word.quantity;
-    column.rank = word.rank;
+bool is_place(std::string_view word) { return std::find(kPlaces.begin(), kPlaces.end(), word) != kPlaces.end(); }
+
+/// The longest name that a heading holds, then the one with the smallest rank; a place only where nothing else is said.
+void find_quantity(ColumnName& column, const std::vector<FoundQuantity>& found) {
+  const NamedQuantity* best = nullptr;
+  const auto order = [](const NamedQuantity& name) {
+    return std::tuple(is_place(name.word), -static_cast<std::ptrdiff_t>(name.word.size()), name.rank);
+  };
+  for (const FoundQuantity& each : found) {
+    if (each.name->word.size() <= 2 && column.name != each.name->word) continue;
+    if (best == nullptr || order(*each.name) < order(*best)) best = each.name;
   }
+  if (best == nullptr) return;
+  column.quantity = best->quantity;
+  column.rank = best->rank;
 }
 
 /// Whether another word than that of the quantity decides: a strain or a stress named after a column of extension or
 /// force, `maximum`, `rate`.
-void find_other_meaning(ColumnName& column) {
+void find_other_meaning(ColumnName& column, const std::vector<FoundQuantity>& found) {
   const auto of = [&](Quantity quantity) {
-    return std::any_of(quantity_names().begin(), quantity_names().end(), [&](const NamedQuantity& each) {
-      return each.quantity == quantity && each.word.size() > 3 && holds_word(column.name, each.word);
+    return std::any_of(found.begin(), found.end(), [&](const FoundQuantity& each) {
+      return each.name->quantity == quantity && each.name->word.size() > 3;
     });
   };
   if (column.quantity == Quantity::extension && of(Quantity::strain)) column.quantity = Quantity::strain;
@@ -166,8 +210,32 @@ void find_other_meaning(ColumnName& column) {
   for (const std::string_view harmless : {"change in length", "time at", "test number"}) {
     if (const std::size_t at = name.find(harmless); at != std::string::npos) name.erase(at, harmless.size());
   }
-  column.is_other = holds_any(name, other_words());
+  column.is_other = other_words().finds_one(name);
   if (column.quantity == Quantity::time && column.rank >= 4 && !holds_word(name, "rate")) column.is_other = false;
+}
+
+/// Whether words are left in a name beside its quantity's and harmless ones: `Grip Force`, `命令位移`.
+bool has_qualifier(std::string_view name, Quantity quantity, const std::vector<FoundQuantity>& found) {
+  std::vector<bool> known(name.size(), false);
+  const auto mark = [&](std::size_t begin, std::size_t size) {
+    std::fill_n(known.begin() + static_cast<std::ptrdiff_t>(begin), size, true);
+  };
+  for (const FoundQuantity& each : found) {
+    if (each.name->quantity == quantity) mark(each.begin, each.name->word.size());
+  }
+  for (const WordFinder* words : {&harmless_words(), &preferred_words(), &specimen_words()}) {
+    for (const FoundWord& each : words->find_all(name)) mark(each.begin, words->words()[each.index].size());
+  }
+  std::size_t letters = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool is_digit = name[i] >= '0' && name[i] <= '9';
+    if (is_digit) i = std::min(name.find_first_of(" ()[].-_", i), name.size() - 1);  // a label, `5kn`, `t7`
+    const bool is_letter =
+        !is_digit && ((name[i] >= 'a' && name[i] <= 'z') || static_cast<unsigned char>(name[i]) > 127);
+    letters = is_letter && !known[i] ? letters + 1 : 0;
+    if (letters > 1) return true;
+  }
+  return false;
 }
 
 /// A unit of another quantity corrects the name, or tells the meaning of one letter.
@@ -199,17 +267,27 @@ void correct_by_unit(ColumnName& column, std::string_view unit, bool has_own_row
 }
 
 void find_role(ColumnName& column) {
+  constexpr std::array<std::string_view, 6> kSetPointParts = {"soll",    "vorgabe",  "setpoint",
+                                                              "command", "consigne", "ziel"};
+  constexpr std::array<std::string_view, 1> kRawParts = {"rohwert"};
+  constexpr std::array<std::string_view, 2> kLateralParts = {"quer", "breite"};
   constexpr int kSlightly = 1;
   if (column.quantity == Quantity::time) return;
-  if (holds_marker(column.name, lateral_words())) column.role = ColumnRole::lateral;
-  if (holds_marker(column.name, raw_words())) column.role = ColumnRole::raw;
-  if (holds_marker(column.name, set_point_words())) column.role = ColumnRole::set_point;
-  column.rank = 2 * column.rank + (holds_any(column.name, preferred_words()) ? 0 : kSlightly);
+  const std::string& name = column.name;
+  const bool is_nominal = column.quantity == Quantity::strain || column.quantity == Quantity::stress;
+  if (lateral_words().finds_one(name) || is_in_compound(name, kLateralParts)) column.role = ColumnRole::lateral;
+  if (raw_words().finds_one(name) || is_in_compound(name, kRawParts)) column.role = ColumnRole::raw;
+  if (!is_nominal && (set_point_words().finds_one(name) || is_in_compound(name, kSetPointParts)))
+    column.role = ColumnRole::set_point;
+  column.rank = 2 * column.rank + (preferred_words().finds_one(name) ? 0 : kSlightly);
 }
 
-Gauge gauge_of(std::string_view name) {
-  if (holds_any(name, kExtensometerWords)) return Gauge::extensometer;
-  return holds_any(name, kGripWords) ? Gauge::grips : Gauge::unknown;
+Gauge gauge_of(std::string_view name, const std::vector<FoundQuantity>& found) {
+  const bool is_extensometer = std::any_of(found.begin(), found.end(), [](const FoundQuantity& each) {
+    return each.name->quantity == Quantity::extension && each.name->rank == kExtensometerRank;
+  });
+  if (is_extensometer) return Gauge::extensometer;
+  return grip_words().finds_one(name) ? Gauge::grips : Gauge::unknown;
 }
 
 }  // namespace
@@ -264,15 +342,21 @@ ColumnName recognise_column(std::string_view heading, std::string_view unit) {
   column.unit = as_written(heading, apart.unit);
   const bool known = !apart.unit.empty() && is_unit(apart.unit);
   if (!unit.empty() && !known && (apart.unit.empty() || is_unit(bare_unit(unit)))) column.unit = unit;
-  find_quantity(column);
-  find_other_meaning(column);
+  const std::vector<FoundQuantity> found = quantities_in(column.name);
+  find_quantity(column, found);
+  find_other_meaning(column, found);
   correct_by_unit(column, column.unit, !unit.empty() && column.unit == unit);
+  if (column.quantity && known && is_unit(bare_unit(unit)) &&
+      unit_factor(*column.quantity, unit) != unit_factor(*column.quantity, column.unit))
+    column.other_unit = unit;
   if (column.is_other) column.quantity.reset();
+  if (column.quantity) column.is_qualified = has_qualifier(column.name, *column.quantity, found);
   find_role(column);
-  column.is_specimen = std::any_of(specimen_words().begin(), specimen_words().end(), [&](std::string_view word) {
+  const auto specimens = specimen_words().words();
+  column.is_specimen = std::any_of(specimens.begin(), specimens.end(), [&](std::string_view word) {
     return column.name == word || (column.name.ends_with('.') && column.name.substr(0, column.name.size() - 1) == word);
   });
-  if (column.quantity == Quantity::extension) column.gauge = gauge_of(column.name);
+  if (column.quantity == Quantity::extension) column.gauge = gauge_of(column.name, found);
   return column;
 }
 

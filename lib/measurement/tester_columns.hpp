@@ -33,10 +33,12 @@ struct ColumnName {
   std::string unit = {};  ///< as written with the name; empty when it is not
   Gauge gauge = Gauge::unknown;
   ColumnRole role = ColumnRole::measured;
-  bool is_other = false;       ///< a word gives the name another meaning (`maximum`, `rate`)
-  bool is_specimen = false;    ///< tells which specimen a row belongs to
-  bool unit_of_cells = false;  ///< the unit stands behind each number
-  std::string name = {};       ///< in plain words, without the unit
+  std::string other_unit = {};  ///< of the row of units, where it contradicts that of the heading
+  bool is_qualified = false;    ///< a word that is not known says more of it (`Grip Force`)
+  bool is_other = false;        ///< a word gives the name another meaning (`maximum`, `rate`)
+  bool is_specimen = false;     ///< tells which specimen a row belongs to
+  bool unit_of_cells = false;   ///< the unit stands behind each number
+  std::string name = {};        ///< in plain words, without the unit
 };
 
 /// Recognises `Load (N)`, `Standardkraft [N]`, `Kraft in N`, `Force / kN`, `force_n`, `Position (m) Run #1`,

@@ -108,7 +108,8 @@ std::optional<std::string> from_named(const char* encoding, std::string_view byt
 
 /// Bytes that are neither UTF-8 nor UTF-16: of the encodings whose text holds words of headings the one with most.
 DecodedText from_bytes(std::string_view bytes, std::span<const std::string> hints) {
-  constexpr std::array kNames = {std::pair("CP932", "Shift-JIS"), std::pair("GBK", "GBK")};
+  constexpr std::array kNames = {std::pair("CP932", "Shift-JIS"), std::pair("GBK", "GBK"),
+                                 std::pair("EUC-JP", "EUC-JP"), std::pair("BIG5", "Big5"), std::pair("CP949", "CP949")};
   DecodedText best{from_windows_1252(bytes), "Windows-1252"};
   std::size_t most = western_letters(bytes);
   for (const auto& [name, shown] : kNames) {

@@ -48,7 +48,7 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
   const std::vector<std::string> hints = {choice.extension, choice.force, choice.time, choice.strain, choice.stress};
   const Result<DecodedText> text = decoded(bytes, hints);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
-  const std::vector<std::string_view> lines = lines_of(text->text);
+  const std::vector<std::string_view> lines = export_lines(text->text);
   const auto tables = tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   ExportParts found = parts_of(*tables, choice, file);

@@ -1,6 +1,7 @@
 #include "measurement/tester_numbers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -18,6 +19,24 @@ bool is_plain(std::string_view text) {
   });
 }
 
+/// Letters that stand in numbers; all beyond ASCII may be signs.
+constexpr std::array<bool, 256> kOfNumbers = [] {
+  std::array<bool, 256> table{};
+  for (const char letter : std::string_view("0123456789.,-+eE' ")) table[static_cast<unsigned char>(letter)] = true;
+  for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;
+  return table;
+}();
+
+/// Whether no letter speaks against a number. Most cells of a header are words: they are told by their first letter.
+bool may_be_number(std::string_view text) {
+  bool any_digit = false;
+  for (const char letter : text) {
+    if (!kOfNumbers[static_cast<unsigned char>(letter)]) return false;
+    any_digit = any_digit || is_digit(letter) || letter == '\xEF';  // full-width digits
+  }
+  return any_digit;
+}
+
 struct Sign {
   std::string_view utf8;
   char plain;
@@ -33,6 +52,11 @@ constexpr Sign kSigns[] = {{"\xC2\xA0", ' '},      {"\xE2\x80\xAF", ' '}, {"\xE2
 std::string with_plain_signs(std::string_view text) {
   std::string plain;
   while (!text.empty()) {
+    if (static_cast<unsigned char>(text.front()) < 0x80) {
+      plain += text.front();
+      text.remove_prefix(1);
+      continue;
+    }
     const auto sign = std::find_if(std::begin(kSigns), std::end(kSigns),
                                    [&](const Sign& each) { return text.starts_with(each.utf8); });
     if (sign != std::end(kSigns)) {
@@ -137,6 +161,7 @@ std::optional<DecimalMark> decimal_evidence(std::string_view text) {
 
 std::optional<double> instrument_number(std::string_view text, DecimalMark mark) {
   text = trimmed(text);
+  if (!may_be_number(text)) return std::nullopt;
   if (is_plain(text)) {
     const bool comma = text.find(',') != std::string_view::npos;
     if (!comma && (mark == DecimalMark::point || text.find('.') == std::string_view::npos)) return from_plain(text);
@@ -180,12 +205,16 @@ ColumnMark column_mark(std::span<const std::string_view> cells) {
   constexpr std::size_t kEnough = 3;  // numbers of either kind
   if (!found.mark && one_mark && marked >= kEnough && unmarked_small >= kEnough && unmarked_large == 0)
     found.mark = *grouped_by == DecimalMark::comma ? DecimalMark::point : DecimalMark::comma;
+  if (!found.mark && one_mark) found.lone = grouped_by;
   return found;
 }
 
 std::optional<double> clock_seconds(std::string_view text) {
   text = trimmed(text);
   if (text.find(':') == std::string_view::npos) return std::nullopt;
+  if (text.ends_with('Z')) text.remove_suffix(1);
+  if (const std::size_t zone = text.find_last_of("+-"); zone != std::string_view::npos && zone > text.find(':'))
+    text = text.substr(0, zone);
   const std::size_t before = text.find_last_of(" T", text.find(':'));
   double days = 0.0;
   if (before != std::string_view::npos) text.remove_prefix(before + 1);

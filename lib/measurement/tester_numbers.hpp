@@ -28,6 +28,7 @@ bool looks_like_number(std::string_view text);
 /// What the cells of one column say together about its decimal mark.
 struct ColumnMark {
   std::optional<DecimalMark> mark;  ///< nothing: no cell decides
+  std::optional<DecimalMark> lone;  ///< where no cell decides: the one mark in its cells, as a decimal mark
   std::size_t contradiction = 0;    ///< place of the first cell with the other mark; 0: none
   std::size_t first = 0;            ///< place of the cell that it contradicts
 };

@@ -52,8 +52,14 @@ ColumnSeries rows_of_series(const ColumnSeries& series, std::size_t begin, std::
 }
 
 void append(ColumnSeries& series, const ColumnSeries& more) {
-  for (std::size_t q = 0; q < kQuantities; ++q)
+  for (std::size_t q = 0; q < kQuantities; ++q) {
+    if (series.values[q].size() != series.line.size() || more.values[q].size() != more.line.size()) {
+      series.values[q].clear();  // a clock that only one of them has
+      series.taken[q].reset();
+      continue;
+    }
     series.values[q].insert(series.values[q].end(), more.values[q].begin(), more.values[q].end());
+  }
   series.line.insert(series.line.end(), more.line.begin(), more.line.end());
 }
 
@@ -135,10 +141,9 @@ bool is_of_extremes(const std::string& title) {
 
 /// Words of a title that name another specimen.
 bool names_a_specimen(const std::string& title) {
-  const std::string words = plain_words(title);
-  const auto known = specimen_words();
+  const auto known = specimen_words().find_all(plain_words(title));
   return std::any_of(known.begin(), known.end(),
-                     [&](std::string_view word) { return word.size() > 3 && holds_word(words, word); });
+                     [](const FoundWord& each) { return specimen_words().words()[each.index].size() > 3; });
 }
 
 class PartFinder {
@@ -182,7 +187,8 @@ class PartFinder {
       const bool filled =
           is_alone || std::any_of(group.columns.begin(), group.columns.end(), [&](std::size_t column) {
             const auto quantity = block.columns[column].quantity;
-            return (quantity == Quantity::extension || quantity == Quantity::force) && !block.cell(row, column).empty();
+            return (quantity == Quantity::force || (quantity == Quantity::extension && !group.shares_extension)) &&
+                   !block.cell(row, column).empty();
           });
       if (filled) rows.push_back(row);
     }
@@ -191,6 +197,11 @@ class PartFinder {
 
   void read_block(std::size_t index) {
     const TableBlock& block = tables_.blocks[index];
+    if (block.statistics > 0)
+      found_.notes.push_back(
+          fmt::format("{}: {} rows of statistics (`Mean`, `SD`) of the table that begins in line {} "
+                      "are left out",
+                      file_, block.statistics, block.heading + 1));
     if (block.ignored_rows > 0)
       found_.notes.push_back(
           fmt::format("{}: {} rows of numbers after the record that begins in line {} stand below "

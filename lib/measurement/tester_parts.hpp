@@ -28,6 +28,7 @@ struct ExportParts {
 struct ColumnGroup {
   std::string name;  ///< empty: the table holds one specimen
   std::vector<std::size_t> columns;
+  bool shares_extension = false;  ///< with the other groups
 };
 std::vector<ColumnGroup> column_groups(const TableBlock& block, const ColumnChoice& choice);
 

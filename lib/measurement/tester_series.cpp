@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "base/csv.hpp"
+#include "measurement/candidate_column.hpp"
 #include "measurement/cell_units.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
@@ -20,17 +22,6 @@ namespace {
 constexpr double kDead = 1e-3;      // range of a dead channel over that of the widest
 constexpr double kHalfDay = 43200;  // s
 
-/// What is known of a column before it is chosen.
-struct Candidate {
-  std::size_t column = 0;
-  const ColumnName* name = nullptr;
-  int match = 0;               ///< of the name that the sheet gives
-  bool has_unit = false;       ///< one that the quantity has
-  bool is_dead = false;        ///< its numbers do not move, or it has hardly any
-  bool goes_back = false;      ///< a clock that does
-  bool is_clock_time = false;  ///< hh:mm:ss
-};
-
 class SeriesReader {
  public:
   SeriesReader(const TableBlock& block, const std::vector<std::size_t>& columns, const std::vector<std::size_t>& rows,
@@ -40,7 +31,7 @@ class SeriesReader {
   tl::expected<ColumnSeries, ImportFault> read() {
     for (const std::size_t row : rows_) series_.line.push_back(static_cast<int>(block_.lines[row]) + 1);
     for (const std::size_t row : rows_) {
-      if (delimiter_ == kGaps && block_.cells_in(row) != block_.columns.size()) {
+      if ((delimiter_ == kGaps || delimiter_ == kBlanks) && block_.cells_in(row) != block_.columns.size()) {
         reject(block_.lines[row] + 1, "",
                fmt::format("has {} columns, expected {} as in the heading: an empty cell, or fewer than two blanks "
                            "between columns; export with a delimiter",
@@ -92,7 +83,8 @@ class SeriesReader {
 
   /// The decimal mark of each column: its own, else that of the others, else that of the delimiter.
   void find_marks() {
-    std::optional<DecimalMark> usual;
+    std::optional<DecimalMark> usual, lone;
+    bool one_lone = true;
     for (const std::size_t column : columns_) {
       if (!matters(column)) continue;
       const ColumnMark found = column_mark(cells_of_column(column));
@@ -105,8 +97,16 @@ class SeriesReader {
       }
       marks_[column] = found.mark;
       if (found.mark && !usual) usual = found.mark;
+      one_lone = one_lone && (!found.lone || lone.value_or(*found.lone) == *found.lone);
+      if (found.lone) lone = found.lone;
     }
-    default_mark_ = usual.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma);
+    if (!one_lone) lone.reset();
+    default_mark_ = usual.value_or(lone.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma));
+    if (!usual && lone && delimiter_ != ',')
+      series_.warnings.push_back(fmt::format(
+          "{}: every number with a {} has three digits behind it; it is read as the decimal mark, not as one of "
+          "thousands",
+          file_, *lone == DecimalMark::comma ? "comma" : "point"));
     series_.decimal_mark = default_mark_ == DecimalMark::comma ? ',' : '.';
   }
 
@@ -139,8 +139,8 @@ class SeriesReader {
     return !name.unit.empty() && unit_factor(quantity, name.unit).has_value();
   }
 
-  std::vector<Candidate> candidates_for(Quantity quantity) const {
-    std::vector<Candidate> found;
+  std::vector<CandidateColumn> candidates_for(Quantity quantity) const {
+    std::vector<CandidateColumn> found;
     const std::string& wanted = choice_.of(quantity);
     int best_match = 0;
     for (const std::size_t column : columns_) {
@@ -150,18 +150,33 @@ class SeriesReader {
       found.push_back({.column = column, .name = &name, .match = matched, .has_unit = has_unit(name, quantity)});
       best_match = std::max(best_match, matched);
     }
-    std::erase_if(found, [&](const Candidate& each) { return each.match < best_match; });
+    std::erase_if(found, [&](const CandidateColumn& each) { return each.match < best_match; });
     return found;
   }
 
+  /// Whether a column stays at its largest number, to the last digit, for a twentieth of its rows and ten at least.
+  bool is_cut(std::size_t column) const {
+    constexpr std::size_t kFewest = 10, kShare = 20;
+    double largest = -std::numeric_limits<double>::infinity();
+    std::size_t run = 0, longest = 0;
+    for (const std::size_t row : rows_) {
+      const double value = value_at(row, column).value_or(-std::numeric_limits<double>::infinity());
+      run = value < largest ? 0 : value > largest ? 1 : run + 1;
+      longest = value > largest ? 1 : std::max(longest, run);
+      largest = std::max(largest, value);
+    }
+    return longest >= kFewest && kShare * longest > rows_.size();
+  }
+
   /// Marks the channels that do not move, against the one that moves most.
-  void find_dead(std::vector<Candidate>& candidates, Quantity quantity) const {
+  void find_dead(std::vector<CandidateColumn>& candidates, Quantity quantity) const {
     if (candidates.size() < 2) return;
     std::vector<double> ranges;
-    for (Candidate& each : candidates) {
+    for (CandidateColumn& each : candidates) {
       const auto [range, others] = range_of(each.column);
       const double factor = each.has_unit ? unit_factor(quantity, each.name->unit).value_or(1.0) : 0.0;
       each.is_dead = range == 0.0 || 2 * others > rows_.size();
+      each.is_cut = quantity == Quantity::force && !each.is_dead && is_cut(each.column);
       ranges.push_back(each.is_dead || each.name->role != ColumnRole::measured ? 0.0 : range * factor);
     }
     const double widest = *std::max_element(ranges.begin(), ranges.end());
@@ -171,25 +186,40 @@ class SeriesReader {
     }
   }
 
-  static auto order_of(const Candidate& each) {
-    return std::tuple(each.is_dead, each.name->role, !each.has_unit, each.name->rank, each.column);
+  /// Whether two columns rise and fall differently, by more than 1 % of the range of the first.
+  bool differ(const CandidateColumn& one, const CandidateColumn& other, Quantity quantity) const {
+    constexpr double kAlike = 0.01;
+    const auto factor = [&](const CandidateColumn& each) {
+      return unit_factor(quantity, each.name->unit).value_or(1.0);
+    };
+    std::optional<double> first, first_other;
+    double most = 0.0;
+    for (const std::size_t row : rows_) {
+      const auto value = value_at(row, one.column), beside = value_at(row, other.column);
+      if (!value || !beside) continue;
+      if (!first) first = *value, first_other = *beside;
+      most = std::max(most, std::abs(factor(one) * (*value - *first) - factor(other) * (*beside - *first_other)));
+    }
+    return most > kAlike * factor(one) * range_of(one.column).first;
   }
 
-  /// Why the one that was taken comes before another.
-  static std::string reason_for(const Candidate& taken, const Candidate& other) {
-    if (other.name->role == ColumnRole::set_point) return "a set point";
-    if (other.name->role == ColumnRole::lateral) return "across the specimen";
-    if (other.is_dead && !taken.is_dead) return "does not move";
-    if (other.name->role == ColumnRole::raw && taken.name->role != ColumnRole::raw) return "not calibrated";
-    if (taken.has_unit && !other.has_unit) return "has no unit";
-    if (other.goes_back && !taken.goes_back) return "goes back";
-    if (taken.name->rank < other.name->rank) return "less usual";
-    return "stands further right";
+  /// A warning where nothing but their places decided between columns that differ.
+  void doubt_choice(Quantity quantity, const CandidateColumn& taken, const std::vector<CandidateColumn>& all) {
+    for (const CandidateColumn& other : all) {
+      if (other.column == taken.column || order_of(other) != order_of(taken) || !differ(taken, other, quantity))
+        continue;
+      series_.warnings.push_back(fmt::format(
+          "{}: `{}` and `{}` are both measured columns of {} and differ; the first is taken: expected {}_column in the "
+          "sheet, or part where they are of two specimens",
+          file_, taken.name->heading, other.name->heading, to_string(quantity), to_string(quantity)));
+      return;
+    }
   }
 
-  void say_choice(Quantity quantity, const Candidate& taken, const std::vector<Candidate>& all, TakenColumn& column) {
+  void say_choice(Quantity quantity, const CandidateColumn& taken, const std::vector<CandidateColumn>& all,
+                  TakenColumn& column) {
     std::vector<std::string> others;
-    for (const Candidate& other : all) {
+    for (const CandidateColumn& other : all) {
       if (other.column == taken.column) continue;
       column.not_taken.push_back(other.name->heading);
       others.push_back(fmt::format("`{}` ({})", other.name->heading,
@@ -201,7 +231,7 @@ class SeriesReader {
     }
     for (const std::size_t i : columns_) {
       const ColumnName& name = block_.columns[i];
-      const auto is_it = [&](const Candidate& each) { return each.column == i; };
+      const auto is_it = [&](const CandidateColumn& each) { return each.column == i; };
       if (name.quantity != quantity || std::any_of(all.begin(), all.end(), is_it)) continue;
       column.not_taken.push_back(name.heading);
       others.push_back(fmt::format("`{}` (not named by the sheet)", name.heading));
@@ -220,11 +250,13 @@ class SeriesReader {
   }
 
   void take(Quantity quantity) {
-    std::vector<Candidate> all = candidates_for(quantity);
+    std::vector<CandidateColumn> all = candidates_for(quantity);
     find_dead(all, quantity);
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return std::tuple(order_of(a), a.column) < std::tuple(order_of(b), b.column);
+    });
     const bool by_name = !choice_.of(quantity).empty();
-    const auto may_be_taken = [&](const Candidate& each) {
+    const auto may_be_taken = [&](const CandidateColumn& each) {
       return by_name || (each.name->role != ColumnRole::set_point && each.name->role != ColumnRole::lateral);
     };
     // A channel that moves though nobody measured with it is worse than a dead measurement.
@@ -232,6 +264,7 @@ class SeriesReader {
     if (taken == all.end()) return refuse_absent(quantity, all);
     TakenColumn column{.heading = taken->name->heading, .gauge = taken->name->gauge};
     say_choice(quantity, *taken, all, column);
+    if (taken->match < 3) doubt_choice(quantity, *taken, all);
     if (!find_factor(quantity, *taken->name, column)) return;
     if (std::count(contradictory_.begin(), contradictory_.end(), taken->column) > 0) {
       return reject(contradiction_, "",
@@ -239,18 +272,22 @@ class SeriesReader {
                                 "expected one of them throughout",
                                 contradicted_));
     }
-    read_values(quantity, taken->column, column.factor);
+    const bool falls = quantity == Quantity::extension && choice_.extension_falls;
+    if (falls)
+      series_.decisions.push_back(
+          fmt::format("extension: `{}` counts downwards in tension, as the sheet says", taken->name->heading));
+    read_values(quantity, taken->column, falls ? -column.factor : column.factor);
     series_.taken[static_cast<std::size_t>(quantity)] = std::move(column);
   }
 
-  void refuse_absent(Quantity quantity, const std::vector<Candidate>& all) {
+  void refuse_absent(Quantity quantity, const std::vector<CandidateColumn>& all) {
     const std::string& wanted = choice_.of(quantity);
     if (!wanted.empty()) {
       return reject(block_.heading + 1, std::string(to_string(quantity)),
                     fmt::format("no column `{}` among `{}`", wanted, fmt::join(headings(), "`, `")));
     }
     std::vector<std::string> others;
-    for (const Candidate& each : all) others.push_back(each.name->heading);
+    for (const CandidateColumn& each : all) others.push_back(each.name->heading);
     reject(
         block_.heading + 1, std::string(to_string(quantity)),
         fmt::format("no measured column of {}, but `{}`, a set point or across the specimen; expected {}_column in the "
@@ -260,6 +297,12 @@ class SeriesReader {
 
   /// The unit of the heading, else that of the sheet, else none, which import_one() decides on.
   bool find_factor(Quantity quantity, const ColumnName& name, TakenColumn& column) {
+    if (!name.other_unit.empty()) {
+      reject(block_.unit_line + 1, name.heading,
+             fmt::format("`{}` in the heading, `{}` in the row of units, expected one unit; correct the export",
+                         unit_as_written(name.unit), unit_as_written(name.other_unit)));
+      return false;
+    }
     if (const auto factor = unit_factor(quantity, name.unit); factor && !name.unit.empty()) {
       column.unit = name.unit;
       column.factor = *factor;
@@ -360,11 +403,11 @@ class SeriesReader {
 
   /// The clock is not needed for the curve: one that cannot be read is left out with a word, unless the sheet names it.
   void take_time() {
-    std::vector<Candidate> all = candidates_for(Quantity::time);
+    std::vector<CandidateColumn> all = candidates_for(Quantity::time);
     const bool by_name = !choice_.time.empty();
     if (all.empty() && by_name) return refuse_absent(Quantity::time, all);
     std::map<std::size_t, std::vector<double>> times;
-    for (Candidate& each : all) {
+    for (CandidateColumn& each : all) {
       auto values = times_in(each.column);
       if (!values) {
         each.is_dead = true;
@@ -375,17 +418,24 @@ class SeriesReader {
       each.is_dead = values->size() > 1 && values->front() == values->back() && !each.goes_back;
       times.emplace(each.column, std::move(*values));
     }
-    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-      const auto order = [](const Candidate& each) {
+    std::sort(all.begin(), all.end(), [](const CandidateColumn& a, const CandidateColumn& b) {
+      const auto order = [](const CandidateColumn& each) {
         return std::tuple(each.goes_back, each.is_dead, each.name->rank, !each.has_unit && !each.is_clock_time,
                           each.column);
       };
       return order(a) < order(b);
     });
     if (all.empty()) return;
-    const Candidate& taken = all.front();
+    const CandidateColumn& taken = all.front();
     const auto values = times.find(taken.column);
     if (values == times.end()) return leave_out_time(taken, by_name);
+    if (!taken.name->other_unit.empty() && !by_name) {
+      series_.warnings.push_back(fmt::format(
+          "{}:{}: column `{}` is in `{}` by its heading, in `{}` by the row of units; the clock is not used", file_,
+          block_.unit_line + 1, taken.name->heading, unit_as_written(taken.name->unit),
+          unit_as_written(taken.name->other_unit)));
+      return;
+    }
     TakenColumn column{.heading = taken.name->heading};
     say_choice(Quantity::time, taken, all, column);
     if (taken.is_clock_time) {
@@ -398,7 +448,7 @@ class SeriesReader {
     series_.taken[static_cast<std::size_t>(Quantity::time)] = std::move(column);
   }
 
-  void leave_out_time(const Candidate& clock, bool by_name) {
+  void leave_out_time(const CandidateColumn& clock, bool by_name) {
     for (const std::size_t row : rows_) {
       const std::string_view cell = block_.cell(row, clock.column);
       if (value_at(row, clock.column) || clock_seconds(cell)) continue;

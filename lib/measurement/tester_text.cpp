@@ -55,6 +55,27 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
+std::vector<std::string_view> export_lines(std::string_view text) {
+  constexpr std::size_t kSearched = 2000, kMostJoined = 6;
+  std::vector<std::string_view> lines = lines_of(text);
+  const auto quotes = [](std::string_view line) { return std::count(line.begin(), line.end(), '"'); };
+  const auto is_torn = [&](std::string_view line) {
+    return quotes(line) % 2 != 0 && line.find_first_of("0123456789") == std::string_view::npos;
+  };
+  for (std::size_t i = 0; i < std::min(lines.size(), kSearched); ++i) {
+    if (!is_torn(lines[i])) continue;
+    for (std::size_t end = i + 1; end < std::min(lines.size(), i + kMostJoined); ++end) {
+      const char* begin = lines[i].data();
+      const std::string_view joined(begin, static_cast<std::size_t>(lines[end].data() + lines[end].size() - begin));
+      if (quotes(joined) % 2 != 0) continue;
+      lines[i] = joined;
+      for (std::size_t k = i + 1; k <= end; ++k) lines[k] = {};
+      break;
+    }
+  }
+  return lines;
+}
+
 std::vector<TextRow> rows_of(std::string_view text, char delimiter) {
   std::vector<TextRow> rows;
   for (int line = 1; !text.empty();) {
@@ -77,6 +98,7 @@ std::string_view delimiter_in_words(char delimiter) {
     case '|':
       return "bar";
     case kGaps:
+    case kBlanks:
       return "blanks";
     default:
       return "comma";
@@ -84,7 +106,7 @@ std::string_view delimiter_in_words(char delimiter) {
 }
 
 std::vector<std::string> cells_of(std::string_view line, char delimiter) {
-  if (delimiter == kGaps) {
+  if (delimiter == kGaps || delimiter == kBlanks) {
     std::vector<std::string_view> views;
     split_cells(line, delimiter, views);
     return {views.begin(), views.end()};
@@ -128,11 +150,32 @@ void split_at_gaps(std::string_view line, std::vector<std::string_view>& cells) 
   }
 }
 
+void split_at_blanks(std::string_view line, std::vector<std::string_view>& cells) {
+  constexpr std::string_view kSpaces = " \t";
+  while (true) {
+    line = trimmed(line);
+    if (line.empty()) return;
+    const std::size_t end = std::min(line.find_first_of(kSpaces), line.size());
+    const std::string_view word = line.substr(0, end);
+    const bool is_unit = word.front() == '(' || word.front() == '[';
+    const bool is_comment = cells.empty() && (word == "#" || word == "%");
+    if (is_comment) {
+      // The mark before a heading is none of its words.
+    } else if (is_unit && !cells.empty()) {
+      cells.back() = {cells.back().data(), static_cast<std::size_t>(word.data() + word.size() - cells.back().data())};
+    } else {
+      cells.push_back(word);
+    }
+    line.remove_prefix(end);
+  }
+}
+
 }  // namespace
 
 void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   if (delimiter == kGaps) return split_at_gaps(line, cells);
+  if (delimiter == kBlanks) return split_at_blanks(line, cells);
   while (true) {
     std::size_t end = std::min(line.find(delimiter), line.size());
     std::string_view cell = trimmed(line.substr(0, end));
@@ -256,14 +299,24 @@ std::optional<char> full_width(std::string_view text) {
   return std::nullopt;
 }
 
+/// The spellings by their first byte.
+const std::array<std::vector<const Spelling*>, 256>& spellings() {
+  static const auto table = [] {
+    std::array<std::vector<const Spelling*>, 256> all;
+    for (const Spelling& each : kSpellings) all[static_cast<unsigned char>(each.character.front())].push_back(&each);
+    return all;
+  }();
+  return table;
+}
+
 /// Replaces the first character of `text` by plain letters at the end of `plain`.
 void spell_out(std::string_view& text, std::string& plain) {
-  const auto known = std::find_if(kSpellings.begin(), kSpellings.end(),
-                                  [&](const auto& each) { return text.starts_with(each.character); });
-  if (known != kSpellings.end()) {
+  for (const Spelling* known : spellings()[static_cast<unsigned char>(text.front())]) {
+    if (!text.starts_with(known->character)) continue;
     if (known->plain != " " || (!plain.empty() && plain.back() != ' ')) plain += known->plain;
-    text.remove_prefix(known->character.size());
-  } else if (const auto letter = full_width(text)) {
+    return text.remove_prefix(known->character.size());
+  }
+  if (const auto letter = full_width(text)) {
     plain += *letter >= 'A' && *letter <= 'Z' ? static_cast<char>(*letter - 'A' + 'a') : *letter;
     text.remove_prefix(3);
   } else {

@@ -11,8 +11,13 @@ namespace nacre::measurement {
 /// Lines without their ends (LF, CRLF or CR).
 std::vector<std::string_view> lines_of(std::string_view text);
 
+/// The lines of an export: a heading of which a quoted cell holds line breaks is one line, the rest of it empty ones.
+std::vector<std::string_view> export_lines(std::string_view text);
+
 /// The delimiter of columns of fixed width: two blanks and more, whose cells are not quoted.
 inline constexpr char kGaps = ' ';
+/// The delimiter of columns between single blanks: a unit in brackets belongs to the name before it.
+inline constexpr char kBlanks = '\v';
 /// `comma`, `semicolon`, `tab`, `bar`, `blanks`.
 std::string_view delimiter_in_words(char delimiter);
 

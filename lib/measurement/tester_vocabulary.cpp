@@ -1,7 +1,7 @@
 #include "measurement/tester_vocabulary.hpp"
 
-#include <algorithm>
 #include <array>
+#include <set>
 
 namespace nacre::measurement {
 namespace {
@@ -112,6 +112,100 @@ constexpr NamedQuantity kNames[] = {
     e("引伸計", 9),
     e("laser extensometer", 9),
     e("video extensometer", 9),
+    e("verfahrweg", 3),
+    e("achsweg", 3),
+    e("auszug", 3),
+    e("klemmenabstand", 3),
+    e("einspannlaengenaenderung", 3),
+    e("wegmessung", 3),
+    e("backenweg", 3),
+    e("klemmenweg", 3),
+    e("ecartement des mors", 3),
+    e("separacion de mordazas", 3),
+    e("distanza morsetti", 3),
+    e("jaw travel", 3),
+    e("crosshead separation", 3),
+    e("crosshead displacement", 3),
+    e("crosshead extension", 3),
+    e("crosshead position", 3),
+    e("position traverse", 3),
+    e("posizione traversa", 3),
+    e("posicion cruceta", 3),
+    e("corsa traversa", 3),
+    e("移動距離", 3),
+    e("チャック間変位", 3),
+    e("つかみ具間距離", 3),
+    e("夹头", 3),
+    e("夹头位移", 3),
+    e("横梁位移", 3),
+    e("位移行程", 3),
+    e("avance", 3),
+    e("verplaatsing", 3),
+    e("deslocamento", 3),
+    e("alongamento", 3),
+    e("extensao", 3),
+    e("deplasman", 3),
+    e("uzama", 3),
+    e("변위", 3),
+    e("신장", 3),
+    e("piston", 4),
+    e("pistone", 4),
+    e("verin", 4),
+    e("course verin", 4),
+    e("hubweg", 4),
+    e("kolbenposition", 4),
+    e("ram", 4),
+    e("活塞", 4),
+    e("作动器", 4),
+    e("作動器", 4),
+    e("シリンダ", 4),
+    e("ram position", 4),
+    e("actuator position", 4),
+    e("actuator displacement", 4),
+    e("piston displacement", 4),
+    e("piston position", 4),
+    e("distance", 6),
+    e("distanz", 6),
+    e("abstand", 6),
+    e("distancia", 6),
+    e("distanza", 6),
+    e("motion", 6),
+    e("bewegung", 6),
+    e("gap", 6),
+    e("距離", 6),
+    e("距离", 6),
+    e("dehnungsmessgeraet", 9),
+    e("dehnungsaufnehmer", 9),
+    e("dehnungsmesser", 9),
+    e("setzdehnungsaufnehmer", 9),
+    e("ansetzaufnehmer", 9),
+    e("ansetzdehnungsaufnehmer", 9),
+    e("fuehlerweg", 9),
+    e("messfuehler", 9),
+    e("feindehnmessung", 9),
+    e("clip gauge", 9),
+    e("clip gage", 9),
+    e("clip-on", 9),
+    e("clip on", 9),
+    e("makroxtens", 9),
+    e("macroxtens", 9),
+    e("videoxtens", 9),
+    e("lightxtens", 9),
+    e("multixtens", 9),
+    e("optixtens", 9),
+    e("laserxtens", 9),
+    e("ave", 9),
+    e("jauge", 9),
+    e("capteur de deplacement", 9),
+    e("extensometro de", 9),
+    e("変位計", 9),
+    e("標線間", 9),
+    e("標線間伸び", 9),
+    e("标距", 9),
+    e("电子引伸计", 9),
+    e("大变形", 9),
+    e("dic extensometer", 9),
+    e("strain gauge extensometer", 9),
     f("force", 0),
     f("standard force", 0),
     f("standardkraft", 0),
@@ -151,6 +245,33 @@ constexpr NamedQuantity kNames[] = {
     f("f", 2),
     f("力", 2),
     f("weight", 2),
+    f("prueflast", 1),
+    f("messkraft", 1),
+    f("kraftmessung", 1),
+    f("kraftsensor", 1),
+    f("zuglast", 1),
+    f("traction force", 1),
+    f("force de traction", 1),
+    f("fuerza de traccion", 1),
+    f("forza di trazione", 1),
+    f("traccion", 1),
+    f("trazione", 1),
+    f("traction", 1),
+    f("负载", 1),
+    f("負載", 1),
+    f("負荷荷重", 1),
+    f("轴向力", 1),
+    f("拉伸力", 1),
+    f("張力", 1),
+    f("测力", 1),
+    f("力传感器", 1),
+    f("kracht", 1),
+    f("forca", 1),
+    f("kuvvet", 1),
+    f("하중", 1),
+    f("힘", 1),
+    f("ld", 1),
+    f("tension force", 1),
     t("test time", 0),
     t("total time", 0),
     t("running time", 0),
@@ -226,6 +347,29 @@ constexpr NamedQuantity kNames[] = {
     t("time in cycle", 5),
     t("step elapsed time", 5),
     t("ramp time", 5),
+    t("seconds elapsed", 1),
+    t("tijd", 1),
+    t("zaman", 1),
+    t("시간", 1),
+    t("aufnahmezeit", 1),
+    t("date time", 4),
+    t("date/time", 4),
+    t("date and time", 4),
+    t("datum/uhrzeit", 4),
+    t("datum uhrzeit", 4),
+    t("datum zeit", 4),
+    t("datum/zeit", 4),
+    t("fecha y hora", 4),
+    t("fecha/hora", 4),
+    t("fecha hora", 4),
+    t("date et heure", 4),
+    t("date/heure", 4),
+    t("date heure", 4),
+    t("data e ora", 4),
+    t("data/ora", 4),
+    t("data ora", 4),
+    t("日時", 4),
+    t("日期时间", 4),
     strain("strain"),
     strain("dehnung"),
     strain("epsilon"),
@@ -259,167 +403,6 @@ constexpr NamedQuantity kNames[] = {
     stress("pression"),
 };
 
-constexpr std::string_view kOthers[] = {
-    "rate",        "date",
-    "datum",       "speed",
-    "velocity",    "geschwindigkeit",
-    "vitesse",     "velocidad",
-    "velocita",    "maximum",
-    "max",         "minimum",
-    "min",         "maximal",
-    "maximale",    "massimo",
-    "massima",     "maximo",
-    "maxima",      "peak",
-    "valley",      "true",
-    "at",          "bei",
-    "break",       "bruch",
-    "bruchkraft",  "rupture",
-    "rotura",      "rottura",
-    "yield",       "fmax",
-    "temperature", "temperatur",
-    "temperatura", "error",
-    "abweichung",  "regelabweichung",
-    "fehler",      "ecart",
-    "deviation",   "energy",
-    "work",        "arbeit",
-    "energie",     "energia",
-    "strength",    "modulus",
-    "modul",       "module",
-    "count",       "zaehler",
-    "limit",       "vorkraft",
-    "preload",     "average",
-    "mean",        "mittelwert",
-    "break load",  "height",
-    "length",      "laenge",
-    "longueur",    "longitud",
-    "lunghezza",   "number",
-    "nummer",      "速度",
-    "速率",        "最大",
-    "最小",        "破断",
-    "断裂",        "強度",
-    "强度",        "温度",
-    "溫度",        "能量",
-    "エネルギー",  "弾性",
-    "弹性",        "率",
-    "日付",        "日期",
-    "counter",
-};
-
-constexpr std::string_view kSetPoints[] = {
-    "command",      "cmd",
-    "commanded",    "set point",
-    "setpoint",     "set",
-    "sollwert",     "soll",
-    "sollkraft",    "sollweg",
-    "sollposition", "setvalue",
-    "set value",    "target",
-    "demand",       "demanded",
-    "desired",      "reference",
-    "ref",          "vorgabe",
-    "vorgabewert",  "fuehrungsgroesse",
-    "consigne",     "cible",
-    "commande",     "consigna",
-    "objetivo",     "referencia",
-    "comando",      "riferimento",
-    "obiettivo",    "mando",
-    "programmed",   "programm",
-    "指令",         "目標",
-    "目标",         "設定",
-    "设定",         "給定",
-    "给定",         "指令值",
-    "指令値",       "sp",
-};
-
-constexpr std::string_view kRaw[] = {
-    "raw",        "counts", "count",        "adc",          "bits",     "bit",     "digits",          "steps",
-    "step",       "ticks",  "rohwert",      "rohdaten",     "roh",      "brut",    "brute",           "crudo",
-    "grezzo",     "grezza", "uncalibrated", "unkalibriert", "signal",   "voltage", "spannungssignal", "inkremente",
-    "increments", "pulses", "pulse",        "原始",         "生データ", "生値",    "未校正",          "电压",
-    "電圧",
-};
-
-constexpr std::string_view kLateral[] = {
-    "lateral",
-    "laterale",
-    "transverse",
-    "transversal",
-    "transversale",
-    "trasversale",
-    "quer",
-    "querdehnung",
-    "breite",
-    "breitenaenderung",
-    "querkontraktion",
-    "width",
-    "largeur",
-    "ancho",
-    "larghezza",
-    "radial",
-    "radiale",
-    "diametral",
-    "diametrale",
-    "diameter",
-    "thickness",
-    "dicke",
-    "circumferential",
-    "hoop",
-    "横向",
-    "側向",
-    "侧向",
-    "径向",
-    "幅",
-    "横方向",
-};
-
-constexpr std::string_view kPreferred[] = {
-    "axial",   "axiale",   "assiale",  "longitudinal", "longitudinale", "laengs",     "actual",
-    "istwert", "ist",      "feedback", "measured",     "mesure",        "mesuree",    "medido",
-    "medida",  "misurato", "misurata", "gemessen",     "calibrated",    "kalibriert", "filtered",
-    "実測",    "实测",     "軸方向",   "轴向",
-};
-
-constexpr std::string_view kSpecimens[] = {
-    "specimen",
-    "sample",
-    "probe",
-    "probekoerper",
-    "pruefkoerper",
-    "eprouvette",
-    "echantillon",
-    "probeta",
-    "muestra",
-    "provino",
-    "campione",
-    "test",
-    "test no",
-    "test number",
-    "specimen no",
-    "specimen number",
-    "specimen id",
-    "specimen label",
-    "sample no",
-    "sample id",
-    "probe nr",
-    "proben nr",
-    "probennummer",
-    "run",
-    "part",
-    "試験片",
-    "試料",
-    "試験番号",
-    "试样",
-    "试样编号",
-    "试件",
-    "試樣",
-    "numero d'eprouvette",
-    "n eprouvette",
-    "serial",
-    "nr",
-    "no",
-};
-
-bool is_east_asian(std::string_view word) { return !word.empty() && static_cast<unsigned char>(word[0]) >= 0xE3; }
-
 }  // namespace
 
 std::string_view to_string(Quantity quantity) {
@@ -428,12 +411,17 @@ std::string_view to_string(Quantity quantity) {
 }
 
 std::span<const NamedQuantity> quantity_names() { return kNames; }
-std::span<const std::string_view> other_words() { return kOthers; }
-std::span<const std::string_view> set_point_words() { return kSetPoints; }
-std::span<const std::string_view> raw_words() { return kRaw; }
-std::span<const std::string_view> lateral_words() { return kLateral; }
-std::span<const std::string_view> preferred_words() { return kPreferred; }
-std::span<const std::string_view> specimen_words() { return kSpecimens; }
+
+std::vector<FoundQuantity> quantities_in(std::string_view name) {
+  static const WordFinder finder = [] {
+    std::vector<std::string_view> words;
+    for (const NamedQuantity& each : kNames) words.push_back(each.word);
+    return WordFinder(words);
+  }();
+  std::vector<FoundQuantity> found;
+  for (const FoundWord& each : finder.find_all(name)) found.push_back({&kNames[each.index], each.begin});
+  return found;
+}
 
 bool holds_word(std::string_view text, std::string_view word) {
   if (word.empty()) return false;
@@ -446,10 +434,11 @@ bool holds_word(std::string_view text, std::string_view word) {
 }
 
 std::size_t east_asian_words(std::string_view text) {
-  std::size_t found = 0;
-  for (const NamedQuantity& name : kNames)
-    found += is_east_asian(name.word) && text.find(name.word) != std::string_view::npos;
-  return found;
+  std::set<const NamedQuantity*> found;
+  for (const FoundQuantity& each : quantities_in(text)) {
+    if (is_east_asian(each.name->word)) found.insert(each.name);
+  }
+  return found.size();
 }
 
 }  // namespace nacre::measurement

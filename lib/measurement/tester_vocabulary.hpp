@@ -6,6 +6,9 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
+
+#include "measurement/word_finder.hpp"
 
 namespace nacre::measurement {
 
@@ -30,16 +33,28 @@ struct NamedQuantity {
 
 std::span<const NamedQuantity> quantity_names();
 
+/// A name of a quantity in a heading, and the byte where it begins.
+struct FoundQuantity {
+  const NamedQuantity* name = nullptr;
+  std::size_t begin = 0;
+};
+std::vector<FoundQuantity> quantities_in(std::string_view name);
+
 /// Words after which a column is no measurement of the test's course (`maximum`, `rate`, `date`).
-std::span<const std::string_view> other_words();
+const WordFinder& other_words();
 /// Words of each role; those that end or begin a compound word (Kraftsollwert) count, too.
-std::span<const std::string_view> set_point_words();
-std::span<const std::string_view> raw_words();
-std::span<const std::string_view> lateral_words();
+const WordFinder& set_point_words();
+const WordFinder& raw_words();
+const WordFinder& lateral_words();
 /// Words that name what was measured (`Istwert`, `actual`), or the specimen's axis.
-std::span<const std::string_view> preferred_words();
+const WordFinder& preferred_words();
 /// Names of a column that tells which specimen a row belongs to.
-std::span<const std::string_view> specimen_words();
+const WordFinder& specimen_words();
+
+/// Words beside a quantity's name that leave its meaning (`channel`, `total`): any other word is a qualifier.
+const WordFinder& harmless_words();
+/// Whether a cell is the name of a statistic over specimens or rows (`Mean`, `SD`).
+bool is_statistic(std::string_view words);
 
 /// Whether `text` holds `word` between letters that are no Latin ones; Japanese and Chinese words stand anywhere.
 bool holds_word(std::string_view text, std::string_view word);

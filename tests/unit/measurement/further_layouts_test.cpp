@@ -89,5 +89,83 @@ TEST_F(FurtherLayouts, OfFixedWidthWithAnEmptyCellAreRefused) {
   expect_refused(narrow, "the row has 2 cells, expected 3");
 }
 
+TEST_F(FurtherLayouts, WithFactorsInTheirUnitsAreReadOrRefused) {
+  expect_read(table("Time (s),Displacement [10^-3 mm],Force [10 N]\n", "{:.3f},{:.4f},{:.6f}\n", 1e3, 0.1));
+  expect_read(table("Time (s),Displacement [1/100 mm],Force in 10 N\n", "{:.3f},{:.4f},{:.6f}\n", 100, 0.1));
+  expect_read(table("Time (s),Displacement 1/100 mm,Force (dN)\n", "{:.3f},{:.4f},{:.6f}\n", 100, 10));
+  expect_refused(table("Time (s),Displacement [x1000 mm],Force (N)\n"), "`[x1000 mm]` is not a unit of extension");
+  expect_refused(table("Time (s),Displacement (mm),Force [x 10 N]\n"), "`[x 10 N]` is not a unit of force");
+  expect_refused(table("Time (s),Extension (mm),Load (N)\ns,mm,kN\n"),
+                 "`N` in the heading, `kN` in the row of units, expected one unit");
+}
+
+TEST_F(FurtherLayouts, OfStatisticsBetweenTheirRowsLeaveTheCurve) {
+  const std::string curve = table("Time [s];Travel [mm];Force [N]\n", "{:.3f};{:.5f};{:.4f}\n");
+  expect_read(curve + "Mean;0.54;998\nMax;64.8;1996.8\n");
+  expect_read(curve + "\nStatistics\nMean;0.54;1996.8\nSD;0.01;12.0\nMin;0.53;1990\nMax;0.55;2003\nCV;1;1\n");
+  expect_read("Time [s];Travel [mm];Force [N]\nMax;1.296;1996.8\nMin;0;0\n" + table("", "{:.3f};{:.5f};{:.4f}\n"));
+}
+
+TEST_F(FurtherLayouts, OfSingleBlanksAndLineBreaksInHeadingsAreRead) {
+  expect_read(table("# Time(s) Extension(mm) Load(N)\n", "{:.10e} {:.10e} {:.10e}\n"));
+  expect_read(table("Time (s) Position (mm) Load (N)\n", "{:.3f} {:.5f} {:.4f}\n"));
+  expect_read(table("\"Time\n(s)\",\"Extension\n(mm)\",\"Load\n(N)\"\n"));
+}
+
+TEST_F(FurtherLayouts, BesideEachOtherAreKnownByTheirOrder) {
+  const auto beside = [](const std::string& heading) {
+    std::string text = heading;
+    for (const Point& each : usual_test())
+      text += fmt::format("{0:.3f};{1:.5f};{3:.7f};{0:.3f};{1:.5f};{2:.4f}\n", each.time_s, each.extension_mm,
+                          each.force_n, 1.1e-3 * each.force_n);
+    return text;
+  };
+  for (const char* heading : {"A;;;B;;\nTime;Travel;Force;Time;Travel;Force\ns;mm;kN;s;mm;N\n",
+                              "Time [s];Travel [mm];Force [kN];Time [s].1;Travel [mm].1;Force [N].1\n",
+                              "Probe1_Zeit [s];Probe1_Weg [mm];Probe1_Kraft [kN];Probe2_Zeit [s];Probe2_Weg "
+                              "[mm];Probe2_Kraft [N]\n"}) {
+    expect_refused(beside(heading), "holds 2 tests");
+    expect_read(beside(heading), ",part", ",2");
+  }
+}
+
+TEST_F(FurtherLayouts, OfSpecimensOnOneExtensionAreParts) {
+  std::string text = "Zeit [s];Weg [mm];Probe 1 Kraft [N];Probe 2 Kraft [N]\n";
+  for (const Point& each : usual_test()) {
+    const bool is_over = each.extension_mm > 1.1;
+    text += fmt::format("{:.3f};{:.5f};{};{:.4f}\n", each.time_s, each.extension_mm,
+                        is_over ? "" : fmt::format("{:.4f}", 1.1 * each.force_n), each.force_n);
+  }
+  expect_refused(text, "holds 2 tests");
+  expect_read(text, ",part", ",Probe 2");
+  EXPECT_EQ(import(text, ",part", ",Probe 1").specimens.size(), 1U) << all_of(import(text, ",part", ",Probe 1"));
+}
+
+TEST_F(FurtherLayouts, WithMarksThatMayGroupThousandsAreReadAsDecimalsWithAWarning) {
+  std::string text = "Time [s];Position [mm];Force [N]\n";
+  for (int i = 0; i <= 120; ++i)
+    text += fmt::format("{};{:.3f};{:.0f}\n", i, 100.0 + 0.01 * i, i <= 60 ? 33.28 * i : 33.28 * (120 - i));
+  const Import import = this->import(text);
+  ASSERT_EQ(import.specimens.size(), 1U) << all_of(import);
+  EXPECT_NEAR(import.specimens[0].test.failure_strain, 1.2 / 54, 2e-4);
+  EXPECT_THAT(import.warnings, testing::Contains(HasSubstr("it is read as the decimal mark")));
+}
+
+TEST_F(FurtherLayouts, OfDatesAndZonesAreClocks) {
+  for (const char* format :
+       {"2026-03-12T10:0{}:{:06.3f}Z", "2026-03-12 10:0{}:{:06.3f}+01:00", "12.03.2026 10:0{}:{:06.3f}"}) {
+    std::string text = "Date/Time;Extension (mm);Load (N)\n";
+    for (const Point& each : usual_test()) {
+      const int minutes = static_cast<int>(each.time_s) / 60;
+      text += fmt::format(fmt::runtime(format), minutes, each.time_s - 60.0 * minutes) +
+              fmt::format(";{:.5f};{:.4f}\n", each.extension_mm, each.force_n);
+    }
+    expect_read(text);
+  }
+  const Import without = import(table("Point,Extension (mm),Load (N)\n"));
+  EXPECT_THAT(without.warnings,
+              testing::Contains(HasSubstr("no clock is read; the strain rate 0.000617 1/s is assumed")));
+}
+
 }  // namespace
 }  // namespace nacre::measurement

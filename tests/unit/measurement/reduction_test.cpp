@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "base/statistics.hpp"
+#include "measurement/strain_rate.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -202,6 +203,39 @@ TEST(Reduction, TheRateIsThatOfTheTestHoweverDenseOrCoarseItsRecord) {
   EXPECT_NEAR(relative_rate(1000, 0.0, 2e-5, 0.0), 1.0, 0.02) << "three decimals of mm over 50 mm; was nothing";
   EXPECT_NEAR(relative_rate(100, 0.0, 0.0, 1.0), 1.0, 0.02) << "a clock of whole seconds";
   EXPECT_NEAR(relative_rate(1, 0.0, 0.0, 0.0), 1.0, 1e-6);
+}
+
+/// Errors of the rate of a test of so many rows, held before the pull or not, with noise of the strain in steps of a
+/// row and of the stress over its peak.
+std::vector<double> errors_of_rate(int rows, bool held, double noise, double stress_noise) {
+  RandomStream random(24, "noisy rates");
+  std::vector<double> errors;
+  for (int test = 0; test < 20; ++test) {
+    std::vector<double> time_s;
+    tester::Curve curve;
+    for (int i = held ? -rows / 2 : 0; i <= rows; ++i) {
+      const double pulled = std::max(i, 0), force = pulled < 0.4 * rows ? pulled / (0.4 * rows) : 0.0;
+      time_s.push_back(i);
+      curve.strain.push_back(1e-4 * (pulled + noise * random.normal()));
+      curve.stress_pa.push_back(1e7 * (force + stress_noise * random.normal()));
+    }
+    errors.push_back(strain_rate(time_s, curve).value_or(0.0) / 1e-4 - 1.0);
+  }
+  return errors;
+}
+
+TEST(Reduction, TheRateIsRightHoweverNoisyBothColumns) {
+  for (const bool held : {false, true}) {
+    for (const int rows : {120, 600, 3000}) {
+      for (const double noise : {0.5, 2.0, 8.0}) {
+        const std::vector<double> errors = errors_of_rate(rows, held, noise, 0.02);
+        const double worst =
+            std::max(-*std::min_element(errors.begin(), errors.end()), *std::max_element(errors.begin(), errors.end()));
+        EXPECT_LT(std::abs(mean(errors)), rows == 120 ? 0.02 : 0.005) << rows << " " << noise << " " << held;
+        EXPECT_LT(worst, rows == 120 ? 0.1 : 0.03) << rows << " " << noise << " " << held << "; was up to 3";
+      }
+    }
+  }
 }
 
 TEST(Reduction, TheRateIsThatOfLoadingAlone) {

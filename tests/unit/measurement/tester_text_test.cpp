@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "measurement/tester_columns.hpp"
 
 namespace nacre::measurement {
@@ -137,6 +139,59 @@ TEST(Columns, ThatMeanSomethingElseAreLeftAlone) {
   EXPECT_EQ(recognise_column("Tensile strain (Extension) (mm/mm)").quantity, Quantity::strain);
   EXPECT_EQ(recognise_column("Tensile stress (MPa)").quantity, Quantity::stress);
   EXPECT_EQ(recognise_column("Strain 1 (mm)").unit, "(mm)") << "who asks for it by name gets its unit";
+}
+
+/// Headings without a unit, so that the words alone decide.
+TEST(RecogniseColumn, KnowsTheWordsOfMakersInTheirLanguages) {
+  const auto expect_all = [](Quantity quantity, std::initializer_list<const char*> headings) {
+    for (const char* heading : headings) {
+      EXPECT_EQ(recognise_column(heading).quantity, quantity) << heading;
+      EXPECT_EQ(recognise_column(heading).role, ColumnRole::measured) << heading;
+    }
+  };
+  expect_all(Quantity::extension, {"Verfahrweg",
+                                   "Traverse abs.",
+                                   "Traversenweg absolut",
+                                   "Achsweg",
+                                   "Klemmenabstand",
+                                   "Kolbenposition",
+                                   "Crosshead Separation",
+                                   "Jaw Travel",
+                                   "Ram Position",
+                                   "Displacement(Linear:Digital Position)",
+                                   "C_1_Déplacement",
+                                   "Écartement des mors",
+                                   "Course vérin",
+                                   "Separación de mordazas",
+                                   "Posición cruceta",
+                                   "Corsa traversa",
+                                   "Posizione traversa",
+                                   "チャック間変位",
+                                   "つかみ具間距離",
+                                   "移動距離",
+                                   "横梁位移",
+                                   "夹头位移",
+                                   "活塞行程",
+                                   "변위"});
+  expect_all(Quantity::force,
+             {"Prüflast", "Messkraft", "Crosshead Force", "Force(Linear:Load)", "C_1_Force", "Fuerza de tracción",
+              "Célula de carga", "Cella di carico", "Forza di trazione", "引張力", "張力", "轴向力", "負載", "하중"});
+  expect_all(Quantity::time, {"Datum/Uhrzeit", "Fecha y hora", "測定時間", "采集时间"});
+  for (const char* heading :
+       {"Dehnungsmessgerät", "Dehnungsaufnehmer", "Ansetzaufnehmer", "Clip-on", "videoXtens", "Extensomètre",
+        "Extensómetro", "Estensometro", "伸び計", "変位計", "电子引伸计", "Virtual extensometer"}) {
+    EXPECT_EQ(recognise_column(heading).gauge, Gauge::extensometer) << heading;
+  }
+  for (const char* heading : {"Verfahrweg", "Traversenweg", "Crosshead", "横梁位移", "クロスヘッド"})
+    EXPECT_EQ(recognise_column(heading).gauge, Gauge::grips) << heading;
+}
+
+TEST(WordFinder, FindsWordsBetweenLatinLettersAndEastAsianOnesAnywhere) {
+  const std::array<std::string_view, 4> words = {"load", "load cell", "力", "n"};
+  const WordFinder finder(words);
+  EXPECT_EQ(finder.find_all("load cell (n)").size(), 3U);
+  EXPECT_TRUE(finder.finds_one("試験力"));
+  for (const char* text : {"", "unload", "loads", "kn"}) EXPECT_FALSE(finder.finds_one(text)) << text;
 }
 
 }  // namespace
