@@ -6,6 +6,8 @@ set(NACRE_GAME explore select families fabricate game)
 set(NACRE_WORLD wire store offline runtime run report laboratory dashboard)
 set(NACRE_MODULES ${NACRE_GROUND} ${NACRE_PHYSICS} ${NACRE_KNOWLEDGE} ${NACRE_GAME} ${NACRE_WORLD})
 
+set(NACRE_INCLUDE_FOLDER include/nacre) # below PREFIX, of the public headers
+
 add_library(nacre_flags INTERFACE)
 # -ffp-contract=off: the agents' decisions are the same under every compiler; the simulation kernel fuses explicitly.
 target_compile_options(nacre_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
@@ -37,13 +39,15 @@ function(nacre_module name)
   if(sources)
     add_library(nacre_${name} STATIC ${sources})
     set(scope PUBLIC)
-    target_link_libraries(nacre_${name} PRIVATE nacre_flags)
+    target_link_libraries(nacre_${name} PRIVATE $<BUILD_INTERFACE:nacre_flags>)
     nacre_for_python(nacre_${name})
   else()
     add_library(nacre_${name} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_include_directories(nacre_${name} ${scope} ${CMAKE_SOURCE_DIR}/lib)
+  target_include_directories(nacre_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>
+                                                    $<INSTALL_INTERFACE:${NACRE_INCLUDE_FOLDER}>)
+  set_target_properties(nacre_${name} PROPERTIES EXPORT_NAME ${name})
   list(TRANSFORM ARG_DEPENDS PREPEND nacre::)
   target_link_libraries(nacre_${name} ${scope} ${ARG_DEPENDS} ${ARG_LIBRARIES})
   add_library(nacre::${name} ALIAS nacre_${name})
@@ -68,9 +72,9 @@ function(nacre_test name)
   set(target ${ARG_LABEL}_${name}_test)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE nacre_flags ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${target} PRIVATE NACRE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+  target_compile_definitions(${target} PRIVATE NACRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                NACRE_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests UNITY_BUILD OFF)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests UNITY_BUILD OFF)
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${target})
   nacre_test_in_suite(${ARG_LABEL} ${name} ${ARG_TIMEOUT})
 endfunction()
