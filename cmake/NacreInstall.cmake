@@ -9,10 +9,10 @@ install(TARGETS nacre nacre_proposal_agent nacre_validation_agent nacre_simulato
 install(DIRECTORY data DESTINATION ${shipped})
 install(DIRECTORY launch DESTINATION ${shipped} FILES_MATCHING PATTERN "*.toml" PATTERN "README.md")
 install(DIRECTORY lcmtypes DESTINATION ${shipped} FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md")
-install(FILES ${CMAKE_BINARY_DIR}/commit DESTINATION ${shipped})
-install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR})
+install(FILES ${PROJECT_BINARY_DIR}/commit DESTINATION ${shipped})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR})
 # Debian's zsh looks here in /usr, in zsh/site-functions only in /usr/local.
-install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/zsh/site-functions/
+install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/zsh/site-functions/
         DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
@@ -25,11 +25,14 @@ if(NACRE_PYTHON)
 endif()
 
 # The page is bundled by npm, without which all but `nacre dashboard` works.
-install(DIRECTORY ${CMAKE_BINARY_DIR}/web/ DESTINATION ${shipped}/web OPTIONAL)
-install(CODE "if(NOT EXISTS \"${CMAKE_BINARY_DIR}/web/index.html\")
+install(DIRECTORY ${PROJECT_BINARY_DIR}/web/ DESTINATION ${shipped}/web OPTIONAL)
+install(CODE "if(NOT EXISTS \"${PROJECT_BINARY_DIR}/web/index.html\")
   message(STATUS \"without the dashboard's page: npm --prefix web ci && npm --prefix web run build makes it\")
 endif()")
 
+include(NacreInstallLibraries)
+
+set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};nacre;Unspecified;/") # without the component `libraries`
 set(CPACK_PACKAGE_NAME nacre)
 set(CPACK_PACKAGE_CONTACT "nacre <nacre@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Discovery of stiff and tough two-material microstructures")

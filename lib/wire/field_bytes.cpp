@@ -3,9 +3,24 @@
 #include <bit>
 
 #include "base/big_endian.hpp"
+#include "nacre/fidelity_t.hpp"
+#include "nacre/parameter_set_t.hpp"
+#include "nacre/test_kind_t.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::wire {
+
+// The numbers in messages are those of the .lcm files.
+using material::CriterionKind, tester::Fidelity, tester::TestKind;
+static_assert(static_cast<int>(Fidelity::tiny) == fidelity_t::TINY);
+static_assert(static_cast<int>(Fidelity::preview) == fidelity_t::PREVIEW);
+static_assert(static_cast<int>(Fidelity::full) == fidelity_t::FULL);
+static_assert(static_cast<int>(TestKind::modulus) == test_kind_t::MODULUS);
+static_assert(static_cast<int>(TestKind::toughness) == test_kind_t::TOUGHNESS);
+static_assert(static_cast<int>(TestKind::tensile) == test_kind_t::TENSILE);
+static_assert(static_cast<int>(CriterionKind::element) == parameter_set_t::ELEMENT);
+static_assert(static_cast<int>(CriterionKind::neighbourhood) == parameter_set_t::NEIGHBOURHOOD);
+static_assert(static_cast<int>(CriterionKind::crack_band) == parameter_set_t::CRACK_BAND);
 
 void FieldWriter::put_integer(std::int64_t value, int size) {
   append_big_endian(bytes_, static_cast<std::uint64_t>(value), size);
@@ -135,17 +150,17 @@ std::string FieldReader::get_value(tester::Loading& value) {
 }
 
 Result<tester::Fidelity> fidelity_of_code(std::int64_t code) {
-  if (code < 0 || code > static_cast<int>(tester::Fidelity::full)) return fail("there is no {}", code);
+  if (code < 0 || code > fidelity_t::FULL) return fail("there is no {}", code);
   return static_cast<tester::Fidelity>(code);
 }
 
 Result<tester::TestKind> test_kind_of_code(std::int64_t code) {
-  if (code < 0 || code > static_cast<int>(tester::TestKind::tensile)) return fail("there is no {}", code);
+  if (code < 0 || code > test_kind_t::TENSILE) return fail("there is no {}", code);
   return static_cast<tester::TestKind>(code);
 }
 
 Result<material::CriterionKind> criterion_of_code(std::int64_t code) {
-  if (code < 0 || code > static_cast<int>(material::CriterionKind::crack_band)) return fail("there is no {}", code);
+  if (code < 0 || code > parameter_set_t::CRACK_BAND) return fail("there is no {}", code);
   return static_cast<material::CriterionKind>(code);
 }
 

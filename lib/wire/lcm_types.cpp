@@ -57,12 +57,17 @@ void set_length(Member& member, const std::string& length, const std::vector<Mem
   if (member.count_member < 0) throw std::logic_error("array " + member.name + " of unknown length " + length);
 }
 
-/// Reads `package nacre; struct NAME { type name[length]; ... }`. Types of members are linked when all files are read.
+/// Reads `package nacre; struct NAME { type name[length]; ... }`, over constants. Types of members are linked when all
+/// files are read.
 Struct parse_struct(const std::vector<std::string>& tokens, std::vector<std::string>& member_types) {
   const auto start = std::find(tokens.begin(), tokens.end(), "struct");
   if (tokens.end() - start < 4) throw std::logic_error("a .lcm file without a struct");
   Struct result{start[1], {}};
   for (auto token = start + 3; *token != "}";) {
+    if (*token == "const") {
+      token = std::find(token, tokens.end(), ";") + 1;
+      continue;
+    }
     Member member;
     member_types.push_back(*token++);
     member.primitive = primitive_of(member_types.back());

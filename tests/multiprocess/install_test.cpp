@@ -13,6 +13,8 @@
 #include "base/files.hpp"
 #include "program_test.hpp"
 #include "short_game.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre {
 namespace {
@@ -60,7 +62,10 @@ class Installed : public testing::Test {
   }
   /// All that it prints; the exit status is demanded.
   static std::string said_by(const std::vector<std::string>& words, int status = 0) {
-    ChildProcess process(nacre(words));
+    return said_by_program(nacre(words), status);
+  }
+  static std::string said_by_program(const std::vector<std::string>& words, int status = 0) {
+    ChildProcess process(words);
     std::string said;
     const runtime::ProcessEnd end = wait_for_end(process, said, 100.0);
     EXPECT_EQ(end.exit_status, status) << said;
@@ -119,6 +124,44 @@ TEST_F(Installed, DataMessagesManualAndCompletionAreThere) {
                            "share/nacre/lcmtypes/header_t.lcm", "share/man/man1/nacre.1", "share/man/man1/nacre-show.1",
                            "share/bash-completion/completions/nacre", "share/zsh/site-functions/_nacre"})
     EXPECT_TRUE(fs::is_regular_file(prefix() / file)) << file;
+}
+
+/// What the testers of this program say of a pattern, as examples/simulate says it.
+std::string simulated_here(const std::string& design) {
+  tester::Simulation simulation;
+  simulation.design = pattern::design_from_argument(design);
+  simulation.parameters = material::default_parameters();
+  std::ostringstream said;
+  said << "E " << 1e-9 * tester::test_modulus(simulation).value().modulus_pa << " GPa, T "
+       << 1e-6 * tester::test_toughness(simulation).value().toughness_pa << " MPa\n";
+  return said.str();
+}
+
+TEST_F(Installed, ProgramsOfOnesOwnLinkToTesterAndClient) {
+  const auto said = [](const std::vector<std::string>& words, int status = 0) {
+    return said_by_program(hidden(work(), words), status);
+  };
+  for (const std::string example : {"simulate", "laboratory"}) {
+    fs::copy(kSources / "examples" / example, work() / example);
+    const std::string build = example + "/build";
+    said({NACRE_CMAKE, "-S", example, "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix().string()});
+    said({NACRE_CMAKE, "--build", build});
+  }
+  EXPECT_EQ(said({"simulate/build/simulate", "577fffe9fffdef"}), simulated_here("577fffe9fffdef"));
+  EXPECT_THAT(said({"simulate/build/simulate", "577"}, 2), HasSubstr("577"));
+  EXPECT_THAT(said({"laboratory/build/laboratory", "no_run"}, 2), HasSubstr("no_run"));
+}
+
+TEST(Subdirectory, OfAnotherProjectGivesTheSameTargets) {
+  const fs::path folder = fresh_folder("subdirectory");
+  std::ofstream list(folder / "CMakeLists.txt");
+  list << "cmake_minimum_required(VERSION 3.25)\nproject(own LANGUAGES C CXX)\n";
+  for (const std::string part : {"", "/examples/simulate", "/examples/laboratory"})
+    list << "add_subdirectory(" << kSources.string() << part << " part" << part << ")\n";
+  list.close();
+  const auto configured = runtime::ask_program({NACRE_CMAKE, "-S", folder, "-B", folder / "build", "-DNACRE_CUDA=OFF"});
+  EXPECT_TRUE(configured.end.orderly()) << configured.output;
+  EXPECT_FALSE(fs::exists(folder / "build/part/tests")) << "tests are the developers' own";
 }
 
 /// Names in a list "a (>= 1), b", without what is in brackets.
