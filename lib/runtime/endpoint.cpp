@@ -54,6 +54,11 @@ bool Endpoint::deliver(double timeout_s, const std::function<void(const Received
   return outbox_.unacknowledged() == 0;
 }
 
+std::optional<std::string> Endpoint::refusal_of(const std::string& hash) const {
+  const auto found = refusals_.find(hash);
+  return found == refusals_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void Endpoint::handle(const Received& received) {
   if (received.message.channel == "STATUS") {
     const auto status = wire::read<wire::NodeStatus>(received.message.payload);
@@ -63,6 +68,8 @@ void Endpoint::handle(const Received& received) {
     if (!ack) return;
     for (const std::string& hash : ack->hashes)
       outbox_.acknowledge(hash, received.header.node, received.header.epoch, ack->journal);
+    for (const wire::Refusal& refusal : ack->refused)
+      if (outbox_.knows(refusal.hash)) refusals_.emplace(refusal.hash, refusal.reason);
   }
 }
 

@@ -2,7 +2,10 @@
 // Reliable delivery for programs without a journal: the launcher, `nacre inject`, `approve`, `review`.
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,8 @@ class Endpoint {
   bool deliver(double timeout_s, const std::function<void(const Received&)>& handler = {});
   int unacknowledged() const { return outbox_.unacknowledged(); }
   std::set<std::string> waiting_for(const std::string& hash) const { return outbox_.waiting_for(hash); }
+  /// Why a node that has the message refuses it, as a sentence; nothing where none does.
+  std::optional<std::string> refusal_of(const std::string& hash) const;
   Bus& bus() { return *bus_; }
 
  private:
@@ -35,6 +40,7 @@ class Endpoint {
   std::string node_;
   std::vector<std::string> participants_;
   Outbox outbox_;
+  std::map<std::string, std::string> refusals_;  ///< by hash
 };
 
 }  // namespace nacre::runtime

@@ -64,6 +64,8 @@ Result<void> Fold::input(const LogRecord& record, const Input& input) {
   expected_messages_.assign(std::make_move_iterator(now.messages.begin()), std::make_move_iterator(now.messages.end()));
   expected_computes_.assign(std::make_move_iterator(now.computes.begin()), std::make_move_iterator(now.computes.end()));
   last_log_ = std::move(now.log);
+  const auto* message = std::get_if<Message>(&input);
+  if (message && !now.refusal.empty() && on_refused) on_refused(*message, now.refusal);
   return {};
 }
 

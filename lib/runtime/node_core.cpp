@@ -17,6 +17,7 @@ void Outputs::append(Outputs&& other) {
   move_behind(messages, other.messages);
   move_behind(computes, other.computes);
   move_behind(log, other.log);
+  if (refusal.empty()) refusal = std::move(other.refusal);
 }
 
 }  // namespace nacre::runtime

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -54,6 +55,8 @@ struct Outputs {
   std::vector<Message> messages;
   std::vector<Compute> computes;
   std::vector<LogLine> log;
+  /// Why the message of this step changes nothing, for whoever sent it; empty where it may change something.
+  std::string refusal;
   void append(Outputs&& other);
 };
 
@@ -74,6 +77,12 @@ class NodeCore {
   virtual ~NodeCore() = default;
   virtual Outputs step(const Input& input) = 0;
   virtual Status status() const = 0;
+  /// Messages of `channel` as they were sent, to be heard again by a program that came later (ASK): orders that are
+  /// not complete, say. Nothing of channels on which nothing stays open.
+  virtual std::vector<Message> open(std::string_view channel) const {
+    (void)channel;
+    return {};
+  }
   /// Seconds between ticks; 0 for a core that needs none (most).
   virtual double tick_period_s() const { return 0.0; }
 };

@@ -145,6 +145,9 @@ class NodeShell {
   void resume() {
     Fold fold(core_);
     fold.on_message_input = [this](const Message& m) { inbox_.remember(wire::message_hash(m.channel, m.payload)); };
+    fold.on_refused = [this](const Message& m, const std::string& why) {
+      inbox_.refuse(wire::message_hash(m.channel, m.payload), why);
+    };
     fold.on_output = [this](const Message& m) { offer(m); };
     fold.on_acknowledged = [this](const std::string& hash, const std::string& node, std::int64_t journal) {
       outbox_.acknowledge(hash, node, 0, journal);
@@ -185,6 +188,7 @@ class NodeShell {
     if (channel == "STATUS") return handle_status(received);
     if (received.header.node == options_.node) return;
     if (channel == "ACK") return handle_ack(received);
+    if (channel == "ASK") return handle_ask(received);
     const wire::Channel& known = *wire::find_channel(channel);
     if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
     const std::string hash = wire::message_hash(channel, received.message.payload);
@@ -198,7 +202,9 @@ class NodeShell {
     } else {
       write_down(channel, received.bytes, known.synced);
       inbox_.remember(hash);
-      step(received.message);
+      Outputs outputs = core_.step(received.message);
+      if (!outputs.refusal.empty()) inbox_.refuse(hash, outputs.refusal);
+      carry_out(std::move(outputs));
     }
     inbox_.owe(hash, steady_us());
   }
@@ -229,6 +235,13 @@ class NodeShell {
       if (!outbox_.acknowledge(hash, from.node, from.epoch, ack->journal)) continue;
       write_down(kAckedChannel, pack({hash, from.node, std::to_string(ack->journal)}));
     }
+  }
+
+  /// Nobody acknowledges what is said again: who asked asks again where something got lost. No decision, no journal.
+  void handle_ask(const Received& received) {
+    const auto ask = wire::read<wire::Ask>(received.message.payload);
+    if (!ask) return;
+    for (const Message& message : core_.open(ask->channel)) bus_->publish(message);
   }
 
   /// A requester that lost its journal sends again a request that has its responses already.
@@ -297,6 +310,8 @@ class NodeShell {
     if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
       wire::Ack ack;
       ack.journal = journal_->identity();
+      for (const std::string& hash : hashes)
+        if (const std::string* why = inbox_.refusal_of(hash)) ack.refused.push_back({hash, *why});
       ack.hashes = std::move(hashes);
       bus_->publish({"ACK", wire::write(ack)});
     }

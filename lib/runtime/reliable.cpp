@@ -119,12 +119,21 @@ void Inbox::owe(const std::string& hash, std::int64_t now_us) {
 
 std::vector<std::string> Inbox::due(std::int64_t now_us) {
   if (owed_.empty() || now_us < owed_since_us_ + settings_.ack_delay_us) return {};
-  constexpr std::size_t kMostHashes = 1000;  // 37 bytes each: below a datagram
-  const auto end = owed_.begin() + static_cast<std::ptrdiff_t>(std::min(owed_.size(), kMostHashes));
-  std::vector<std::string> hashes(owed_.begin(), end);
-  owed_.erase(owed_.begin(), end);
-  for (const std::string& hash : hashes) owed_set_.erase(hash);
+  constexpr std::size_t kHashBytes = 37, kMostBytes = 1000 * kHashBytes;  // below a datagram
+  std::vector<std::string> hashes;
+  for (std::size_t bytes = 0; !owed_.empty(); owed_.pop_front()) {
+    const std::string* refusal = refusal_of(owed_.front());
+    bytes += kHashBytes + (refusal ? kHashBytes + refusal->size() + 5 : 0);
+    if (bytes > kMostBytes) break;
+    owed_set_.erase(owed_.front());
+    hashes.push_back(std::move(owed_.front()));
+  }
   return hashes;
+}
+
+const std::string* Inbox::refusal_of(const std::string& hash) const {
+  const auto found = refusals_.find(hash);
+  return found == refusals_.end() ? nullptr : &found->second;
 }
 
 std::optional<std::int64_t> Inbox::next_due() const {

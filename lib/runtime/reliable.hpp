@@ -9,6 +9,7 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "runtime/node_core.hpp"
@@ -93,9 +94,14 @@ class Inbox {
   bool is_new(const std::string& hash) const { return known_.count(hash) == 0; }
   /// The message is in the journal.
   void remember(const std::string& hash) { known_.insert(hash); }
+  /// The message changes nothing: every acknowledgement of it says why.
+  void refuse(const std::string& hash, std::string reason) { refusals_.emplace(hash, std::move(reason)); }
+  /// Nothing where the message is not refused.
+  const std::string* refusal_of(const std::string& hash) const;
   /// Owes an acknowledgement (also for duplicates: the first one may be lost).
   void owe(const std::string& hash, std::int64_t now_us);
-  /// The hashes to acknowledge now, at most 1000; empty before the delay is over.
+  /// The hashes to acknowledge now, as many as fit a datagram with their refusals (1000 without); empty before the
+  /// delay is over.
   std::vector<std::string> due(std::int64_t now_us);
   std::optional<std::int64_t> next_due() const;
   std::size_t size() const { return known_.size(); }
@@ -105,6 +111,7 @@ class Inbox {
  private:
   ReliableSettings settings_;
   std::unordered_set<std::string> known_;
+  std::unordered_map<std::string, std::string> refusals_;
   std::deque<std::string> owed_;
   std::unordered_set<std::string> owed_set_;
   std::int64_t owed_since_us_ = 0;

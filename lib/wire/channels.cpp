@@ -56,6 +56,7 @@ std::vector<Channel> make_channels() {
       channel<Ack>("ACK", everyone, false),
       channel<NodeStatus>("STATUS", everyone, false),
       channel<Reveal>("REVEAL", {"analyser"}),
+      channel<Ask>("ASK", validation, false),
   };
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 // Messages that run a game rather than play it: RUN, what people decide, what a laboratory reveals at the end,
-// acknowledgements and the nodes' status.
+// acknowledgements, questions and the nodes' status.
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nacre/ack_t.hpp"
 #include "nacre/approval_t.hpp"
+#include "nacre/ask_t.hpp"
 #include "nacre/node_status_t.hpp"
 #include "nacre/reveal_t.hpp"
 #include "nacre/review_t.hpp"
@@ -105,11 +108,19 @@ struct Reveal {
   }
 };
 
+/// Why a receiver will not have a message.
+struct Refusal {
+  std::string hash;
+  std::string reason;  ///< a sentence
+  bool operator==(const Refusal&) const = default;
+};
+
 /// ACK: messages that stand in the sender's journal.
 struct Ack {
   using Wire = ack_t;
   std::int64_t journal = 0;  ///< when that journal was begun, as in STATUS
   std::vector<std::string> hashes;
+  std::vector<Refusal> refused;  ///< of the hashes, those that change nothing
   bool operator==(const Ack&) const = default;
 
   static std::string hash_fault(std::string_view hash) {
@@ -120,7 +131,22 @@ struct Ack {
     field("journal", m.journal);
     field.count("n_hashes", m.hashes);
     field("hashes", m.hashes, hash_fault);
+    field.count("n_refused", m.refused);
+    field.columns(m.refused, [](auto& column, auto& refusal) {
+      column("refused", refusal.hash, hash_fault);
+      column("reason", refusal.reason);
+    });
   }
+};
+
+/// ASK: a program that came later wants to hear again what is still open of a channel.
+struct Ask {
+  using Wire = ask_t;
+  std::string channel;
+  bool operator==(const Ask&) const = default;
+
+  static constexpr std::array<std::string_view, 2> kChannels = {"TEST_ORDER", "PROPOSAL"};
+  static void fields(auto& field, auto& m) { field("channel", m.channel, OneOf{kChannels}); }
 };
 
 /// STATUS: what a node says of itself; the meaning of each field stands in node_status_t.lcm.

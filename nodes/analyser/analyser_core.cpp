@@ -84,10 +84,10 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
 bool AnalyserCore::is_of_this_game(const std::string& measurement) {
   const auto measured = wire::read<wire::Measurement>(measurement);
   if (measured->fidelity == scenario_.fidelity) return true;
-  outputs_.log.push_back(
-      {runtime::LogLevel::warning,
-       fmt::format("specimen {} ignored: measured at fidelity {}, the game is played at {}", measured->record.specimen,
-                   tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity))});
+  outputs_.refusal =
+      fmt::format("specimen {} ignored: measured at fidelity {}, the game is played at {}", measured->record.specimen,
+                  tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity));
+  outputs_.log.push_back({runtime::LogLevel::warning, outputs_.refusal});
   return false;
 }
 

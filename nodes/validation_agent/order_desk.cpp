@@ -125,15 +125,17 @@ Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& desig
   return std::vector<game::Order>{};
 }
 
-std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) const {
+std::vector<game::Order> OrderDesk::open(const game::MeasurementBook& book) const {
   const auto progress = book.progress(orders_, scenario_.validation.enough_valid);
-  std::pair<int, int> count{0, 0};
-  for (std::size_t order = 0; order < orders_.size(); ++order) {
-    if (orders_[order].round != round_) continue;
-    ++count.second;
-    count.first += progress[order].complete;
-  }
-  return count;
+  std::vector<game::Order> open;
+  for (std::size_t order = 0; order < orders_.size(); ++order)
+    if (orders_[order].round == round_ && !progress[order].complete) open.push_back(orders_[order]);
+  return open;
+}
+
+std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) const {
+  const auto all = static_cast<int>(std::ranges::count(orders_, round_, &game::Order::round));
+  return {all - static_cast<int>(open(book).size()), all};
 }
 
 std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenRecord& specimen,

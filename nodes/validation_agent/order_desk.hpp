@@ -55,6 +55,9 @@ class OrderDesk {
   /// Orders of all rounds.
   const std::vector<game::Order>& orders() const { return orders_; }
 
+  /// Orders of the open round that are not complete.
+  std::vector<game::Order> open(const game::MeasurementBook& book) const;
+
   /// Orders of the open round that are complete, and how many there are.
   std::pair<int, int> completed(const game::MeasurementBook& book) const;
 

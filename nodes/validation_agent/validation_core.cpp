@@ -23,6 +23,23 @@ runtime::Outputs ValidationCore::step(const runtime::Input& input) {
   return std::exchange(outputs_, {});
 }
 
+void ValidationCore::refuse(const std::string& why) {
+  say(LogLevel::warning, why);
+  outputs_.refusal = why;
+}
+
+std::vector<runtime::Message> ValidationCore::open(std::string_view channel) const {
+  std::vector<runtime::Message> messages;
+  if (phase_ != Phase::measuring) return messages;
+  if (channel == "TEST_ORDER")
+    for (const game::Order& order : desk_.open(book_))
+      messages.push_back({"TEST_ORDER", wire::write(message_of(order))});
+  const auto proposal = proposals_.find(round_ - 1);
+  if (channel == "PROPOSAL" && desk_.awaiting_approval() > 0 && proposal != proposals_.end())
+    messages.push_back({"PROPOSAL", wire::write(proposal->second)});
+  return messages;
+}
+
 void ValidationCore::accept_message(const runtime::Message& message) {
   using Accept = void (ValidationCore::*)(const std::string&);
   static const std::map<std::string, Accept> kAccept = {
@@ -114,9 +131,9 @@ void ValidationCore::accept_measurement(const std::string& payload) {
   if (!measured) return say(LogLevel::warning, "a MEASUREMENT is ignored: " + measured.error().message);
   const measurement::SpecimenRecord& record = measured->record;
   if (measured->fidelity != scenario_.fidelity) {
-    return say(LogLevel::warning,
-               fmt::format("specimen {} is refused: measured at fidelity {}, the game is played at {}", record.specimen,
-                           tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity)));
+    return refuse(fmt::format("specimen {} is refused: measured at fidelity {}, the game is played at {}",
+                              record.specimen, tester::to_string(measured->fidelity),
+                              tester::to_string(scenario_.fidelity)));
   }
   if (measured->round > round_) {  // this agent's journal was lost, and the order is yet to be given again
     early_measurements_[measured->round].push_back(payload);
@@ -126,8 +143,7 @@ void ValidationCore::accept_measurement(const std::string& payload) {
     case game::MeasurementBook::Receipt::repeated:
       return;
     case game::MeasurementBook::Receipt::conflicting:
-      return say(LogLevel::warning,
-                 fmt::format("specimen {} is refused: it was reported before with other content", record.specimen));
+      return refuse(fmt::format("specimen {} is refused: it was reported before with other content", record.specimen));
     case game::MeasurementBook::Receipt::accepted:
       break;
   }
@@ -160,18 +176,17 @@ void ValidationCore::accept_approval(const std::string& payload) {
   if (const auto proposal = proposals_.find(approval->round); proposal != proposals_.end()) {
     const auto& designs = proposal->second.designs;
     if (std::none_of(designs.begin(), designs.end(), [&](const auto& each) { return each.design == design; })) {
-      return say(LogLevel::warning, fmt::format("an APPROVAL is ignored: {} is not in the proposal of round {}",
-                                                design.name(), approval->round));
+      return refuse(
+          fmt::format("an APPROVAL is ignored: {} is not in the proposal of round {}", design.name(), approval->round));
     }
   }
   if (families_ && approval->round == round_) {
     const std::vector<pattern::Design> chosen = families_->chosen();
     if (std::find(chosen.begin(), chosen.end(), design) == chosen.end())
-      return say(LogLevel::warning,
-                 fmt::format("an APPROVAL is ignored: {} is not chosen of any family", design.name()));
+      return refuse(fmt::format("an APPROVAL is ignored: {} is not chosen of any family", design.name()));
   }
   const auto orders = desk_.take_approval(approval->round, design, {approval->approved, approval->by, approval->why});
-  if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
+  if (!orders) return refuse("an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
                                   design.name(), approval->why));
   send_orders(*orders);
@@ -180,11 +195,10 @@ void ValidationCore::accept_approval(const std::string& payload) {
 
 void ValidationCore::add_own_design(const wire::Approval& approval) {
   if (phase_ == Phase::finished)
-    return say(LogLevel::warning, fmt::format("an APPROVAL changes nothing: no round follows in which {} could be "
-                                              "measured",
-                                              approval.design.name()));
+    return refuse(fmt::format("an APPROVAL changes nothing: no round follows in which {} could be measured",
+                              approval.design.name()));
   const auto orders = desk_.add_own(approval.design, phase_ == Phase::measuring);
-  if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
+  if (!orders) return refuse("an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} adds {}: {}", approval.by, approval.design.name(), approval.why));
   send_orders(*orders);
 }

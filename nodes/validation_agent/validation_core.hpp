@@ -44,6 +44,7 @@ class ValidationCore : public runtime::NodeCore {
   ValidationCore(const game::Scenario& scenario, StartingPoint start);
   runtime::Outputs step(const runtime::Input& input) override;
   runtime::Status status() const override;
+  std::vector<runtime::Message> open(std::string_view channel) const override;
 
  private:
   enum class Phase {
@@ -126,9 +127,12 @@ class ValidationCore : public runtime::NodeCore {
     outputs_.messages.push_back({channel, wire::write(value)});
   }
   void say(runtime::LogLevel level, std::string text) { outputs_.log.push_back({level, std::move(text)}); }
+  /// The message of this step changes nothing; its sender hears why.
+  void refuse(const std::string& why);
   void ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
                 const std::vector<measurement::Replicates>& measured);
   void send_orders(const std::vector<game::Order>& orders);
+  wire::TestOrder message_of(const game::Order& order) const;
 
   game::Scenario scenario_;
   StartingPoint start_;

@@ -38,6 +38,7 @@ void ValidationCore::take_early_measurements() {
   const auto early = early_measurements_.extract(round_);
   if (!early) return;
   for (const std::string& payload : early.mapped()) accept_measurement(payload);
+  outputs_.refusal.clear();  // of messages that were acknowledged long ago
 }
 
 void ValidationCore::begin_unfitted() {
@@ -67,19 +68,21 @@ void ValidationCore::order() {
   measure_on();
 }
 
+wire::TestOrder ValidationCore::message_of(const game::Order& order) const {
+  return {.round = order.round,
+          .order_id = order.id,
+          .design = order.design,
+          .test = order.test,
+          .fidelity = scenario_.fidelity,
+          .replicates = order.replicates,
+          .conditions = order.conditions,
+          .loading = order.loading,
+          .batch = order.batch,
+          .reason = std::string(game::to_string(order.reason))};
+}
+
 void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
-  for (const game::Order& order : orders) {
-    send("TEST_ORDER", wire::TestOrder{.round = order.round,
-                                       .order_id = order.id,
-                                       .design = order.design,
-                                       .test = order.test,
-                                       .fidelity = scenario_.fidelity,
-                                       .replicates = order.replicates,
-                                       .conditions = order.conditions,
-                                       .loading = order.loading,
-                                       .batch = order.batch,
-                                       .reason = std::string(game::to_string(order.reason))});
-  }
+  for (const game::Order& order : orders) send("TEST_ORDER", message_of(order));
   if (!orders.empty())
     say(LogLevel::info, fmt::format("round {}: {} for the laboratory", round_, counted(std::ssize(orders), "order")));
 }

@@ -54,6 +54,7 @@ void InProcessGame::take_outputs(const std::string& node, runtime::Outputs outpu
   for (const runtime::LogLine& line : outputs.log) {
     if (line.level >= runtime::LogLevel::warning) complaints_[node].push_back(line.text);
   }
+  if (!outputs.refusal.empty()) refusals_[node].push_back(outputs.refusal);
   for (const runtime::Message& message : outputs.messages) publish(message);
   for (const runtime::Compute& compute : outputs.computes) {
     work_ids_[node].push_back(compute.id);

@@ -62,6 +62,12 @@ class InProcessGame {
   const std::vector<std::string>& work_of(const std::string& node) { return work_ids_[node]; }
   /// Warnings and errors that `node` logged.
   const std::vector<std::string>& complaints_of(const std::string& node) { return complaints_[node]; }
+  /// Why `node` refused messages, in order.
+  const std::vector<std::string>& refusals_of(const std::string& node) { return refusals_[node]; }
+  /// What `node` would say again to a program that came later.
+  std::vector<runtime::Message> open(const std::string& node, std::string_view channel) const {
+    return nodes_.at(node).core->open(channel);
+  }
   runtime::Status status_of(const std::string& node) const { return nodes_.at(node).core->status(); }
 
   /// Feeds everything that `node` received to a fresh core and compares what it sends. Returns the number of inputs.
@@ -90,7 +96,7 @@ class InProcessGame {
   std::vector<Pending> pending_;
   std::vector<runtime::Message> sent_;
   std::set<std::pair<std::string, std::string>> known_contents_;
-  std::map<std::string, std::vector<std::string>> work_ids_, complaints_;
+  std::map<std::string, std::vector<std::string>> work_ids_, complaints_, refusals_;
   std::map<std::string, std::vector<std::pair<runtime::Input, runtime::Outputs>>> journal_;
   double longest_step_s_ = 0.0;
 };

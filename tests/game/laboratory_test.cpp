@@ -21,6 +21,7 @@ using testing::AllOf;
 using testing::AnyOf;
 using testing::Contains;
 using testing::Each;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -96,9 +97,11 @@ TEST_F(PersonGame, RepeatsAreIgnoredAndContradictionsRefused) {
   report(all.front());
   report(all.front());
   EXPECT_THAT(game_.complaints_of("validation_agent"), IsEmpty());
+  EXPECT_THAT(game_.refusals_of("validation_agent"), IsEmpty());
   auto other = all.front();
   *other.record.modulus_pa *= 2.0;
   report(other);
+  EXPECT_THAT(game_.refusals_of("validation_agent"), ElementsAre(HasSubstr("other content")));
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("other content")));
   for (const auto& measured : all) report(measured);
   ASSERT_EQ(rounds(), 2u);
@@ -238,6 +241,30 @@ TEST_F(PersonGame, AMeasurementOfAnotherFidelityIsRefused) {
   measured.fidelity = tester::Fidelity::full;
   report(measured);
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("fidelity full")));
+  EXPECT_THAT(game_.refusals_of("validation_agent"), ElementsAre(HasSubstr("fidelity full")));
+}
+
+TEST_F(PersonGame, OrdersStayOpenUntilTheyAreMeasured) {
+  begin();
+  const auto open = [&] {
+    std::vector<std::string> payloads;
+    for (const runtime::Message& message : game_.open("validation_agent", "TEST_ORDER")) {
+      EXPECT_EQ(message.channel, "TEST_ORDER");
+      payloads.push_back(message.payload);
+    }
+    return payloads;
+  };
+  std::vector<std::string> ordered = game_.payloads("TEST_ORDER");
+  EXPECT_EQ(open(), ordered) << "the same bytes: a program that heard them knows them";
+  EXPECT_THAT(game_.open("validation_agent", "PROPOSAL"), IsEmpty()) << "nothing waits for approval";
+  const auto all = all_measurements();
+  const std::string first = all.front().order_id;
+  for (const auto& measured : all)
+    if (measured.order_id == first) report(measured);
+  ordered.erase(ordered.begin());
+  EXPECT_EQ(open(), ordered);
+  for (const auto& measured : all) report(measured);
+  EXPECT_THAT(open(), IsEmpty());
 }
 
 TEST_F(PersonGame, EnoughValidSpecimensCompleteAnOrder) {

@@ -321,6 +321,16 @@ TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
   EXPECT_GT(time_s.interval_high, std::max(time_s.parameter, 12.0));
 }
 
+TEST(Analyser, ASpecimenOfAnotherFidelityIsRefusedAndNotKept) {
+  Watched analyser;
+  auto measured = wire::read<wire::Measurement>(measurement_of("a", 5)).value();
+  measured.fidelity = tester::Fidelity::tiny;
+  Outputs outputs = analyser.core.step(Message{"MEASUREMENT", wire::write(measured)});
+  EXPECT_THAT(outputs.refusal, HasSubstr("measured at fidelity tiny"));
+  analyser.take(std::move(outputs));
+  EXPECT_THAT(analyser.ids("store"), IsEmpty());
+}
+
 TEST(Analyser, ARepeatedRequestIsDiagnosedOnce) {
   Watched analyser;
   analyser.receive("MEASUREMENT", measurement_of("a", 5));

@@ -269,5 +269,27 @@ TEST(Inbox, OwesNoMoreThanADatagramHoldsAtOnce) {
   EXPECT_EQ(total, 2500u);
 }
 
+TEST(Inbox, ARefusalGoesWithEveryAcknowledgementAndTakesItsRoom) {
+  Inbox inbox;
+  inbox.refuse("x", "of another fidelity");
+  EXPECT_EQ(inbox.refusal_of("y"), nullptr);
+  for (int i = 0; i < 2; ++i) {
+    inbox.owe("x", 0);
+    EXPECT_EQ(inbox.due(kMillisecond * 30), std::vector<std::string>{"x"});
+    EXPECT_EQ(*inbox.refusal_of("x"), "of another fidelity");
+  }
+  std::size_t total = 0;
+  for (int i = 0; i < 100; ++i) {
+    inbox.refuse(std::to_string(i), std::string(1000, 'r'));
+    inbox.owe(std::to_string(i), 0);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const std::size_t fit = inbox.due(kMillisecond * 30).size();
+    EXPECT_LE(fit * 1000, 60'000u);
+    total += fit;
+  }
+  EXPECT_EQ(total, 100u);
+}
+
 }  // namespace
 }  // namespace nacre::runtime

@@ -63,7 +63,7 @@ TEST(Codec, CorruptedBytesNeverThrowNorTakeMemory) {
 }
 
 TEST(Codec, HostileCountsAreRefusedBeforeAnythingIsAllocated) {
-  std::string payload = write(Ack{0, std::vector<std::string>(3, std::string(32, 'a'))});
+  std::string payload = write(Ack{0, std::vector<std::string>(3, std::string(32, 'a')), {}});
   const std::size_t count = payload.size() - 3 * (4 + 33) - 4;
   for (const std::uint32_t length : {0x7fffffffu, 0xffffffffu, 0x80000000u, 100000u}) {
     for (int i = 0; i < 4; ++i)

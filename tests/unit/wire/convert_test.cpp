@@ -48,6 +48,7 @@ TEST(Convert, EveryDomainValueComesBack) {
   expect_round_trip(samples::approval());
   expect_round_trip(samples::review());
   expect_round_trip(samples::ack());
+  expect_round_trip(samples::ask());
   expect_round_trip(samples::status());
   expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}});
 }

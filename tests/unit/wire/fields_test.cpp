@@ -119,6 +119,7 @@ TEST(Fields, AreThoseOfTheLcmFileInItsOrder) {
   expect_table_of_lcm_file(samples::family());
   expect_table_of_lcm_file(samples::family_gamut());
   expect_table_of_lcm_file(samples::ack());
+  expect_table_of_lcm_file(samples::ask());
   expect_table_of_lcm_file(samples::status());
 }
 

@@ -167,7 +167,11 @@ inline Reveal reveal() {
   return {
       material::default_parameters(), 0.015, 0.08, {{"corner_debonding", "strength lost at corners", false, {0.88}}}};
 }
-inline Ack ack() { return {7, {"0123456789abcdef0123456789abcdef", "ffffffffffffffffffffffffffffffff"}}; }
+inline Ack ack() {
+  const std::string hash = "0123456789abcdef0123456789abcdef";
+  return {7, {hash, std::string(32, 'f')}, {{hash, "specimen S-001 is refused"}}};
+}
+inline Ask ask() { return {"TEST_ORDER"}; }
 inline NodeStatus status() {
   NodeStatus status;
   status.phase = "search";
@@ -195,7 +199,8 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"FAMILY_GAMUT", write(family_gamut())},
           {"ACK", write(ack())},
           {"STATUS", write(status())},
-          {"REVEAL", write(reveal())}};
+          {"REVEAL", write(reveal())},
+          {"ASK", write(ask())}};
 }
 
 }  // namespace nacre::wire::samples
