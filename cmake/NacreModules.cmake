@@ -3,7 +3,7 @@ set(NACRE_GROUND base thesis pattern material optimize)
 set(NACRE_PHYSICS fem tester gpu crack film animation)
 set(NACRE_KNOWLEDGE measurement surrogate sysid diagnosis)
 set(NACRE_GAME explore select families fabricate game)
-set(NACRE_WORLD wire store offline runtime run report laboratory dashboard)
+set(NACRE_WORLD wire store offline runtime client run report laboratory dashboard)
 set(NACRE_MODULES ${NACRE_GROUND} ${NACRE_PHYSICS} ${NACRE_KNOWLEDGE} ${NACRE_GAME} ${NACRE_WORLD})
 
 set(NACRE_INCLUDE_FOLDER include/nacre) # below PREFIX, of the public headers

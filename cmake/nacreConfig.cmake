@@ -1,3 +1,3 @@
-# find_package(nacre): nacre::tester.
+# find_package(nacre): nacre::tester and nacre::client.
 include(${CMAKE_CURRENT_LIST_DIR}/NacreLibraries.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/nacreTargets.cmake)

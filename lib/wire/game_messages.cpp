@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "measurement/specimen_checks.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::wire {
 
@@ -16,6 +17,19 @@ std::string Measurement::contradiction() const {
   if (!record.valid) return {};
   const auto fault = measurement::why_unusable(record);
   return fault ? fmt::format("specimen {}: {} {}", record.specimen, fault->column, fault->reason) : "";
+}
+
+measurement::SpecimenRecord fit_to_send(measurement::SpecimenRecord specimen) {
+  const tester::Curve whole = specimen.curve;
+  if (whole.size() <= kMaximumCurvePoints) return specimen;
+  if (specimen.test == tester::TestKind::toughness) specimen.toughness_pa = measurement::toughness_of(specimen);
+  specimen.curve = {};
+  for (std::size_t i = 0; i < kMaximumCurvePoints; ++i) {
+    const std::size_t k = i * (whole.size() - 1) / (kMaximumCurvePoints - 1);
+    specimen.curve.strain.push_back(whole.strain[k]);
+    specimen.curve.stress_pa.push_back(whole.stress_pa[k]);
+  }
+  return specimen;
 }
 
 std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity,

@@ -195,6 +195,10 @@ struct Measurement {
   std::string contradiction() const;
 };
 
+/// The specimen as a message holds it: of a curve beyond kMaximumCurvePoints every n-th point, both ends kept, and T as
+/// the area under the whole one.
+measurement::SpecimenRecord fit_to_send(measurement::SpecimenRecord specimen);
+
 /// ROUND: hypervolumes and gap in GPa MPa.
 struct RoundSummary {
   using Wire = round_summary_t;

@@ -15,18 +15,6 @@ namespace {
 
 constexpr const char* kChannel = "MEASUREMENT";
 
-/// Every n-th point of a curve that is too long for one message, both ends kept.
-tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
-  if (curve.size() <= most) return curve;
-  tester::Curve thin;
-  for (std::size_t i = 0; i < most; ++i) {
-    const std::size_t k = i * (curve.size() - 1) / (most - 1);
-    thin.strain.push_back(curve.strain[k]);
-    thin.stress_pa.push_back(curve.stress_pa[k]);
-  }
-  return thin;
-}
-
 /// What a message has no field for stands in its note: `[date: ...; operator: ...]`, in this order.
 constexpr std::array kHistory = {"date", "operator", "machine", "path"};
 
@@ -63,15 +51,9 @@ measurement::SpecimenRecord with_history_of_note(measurement::SpecimenRecord spe
 runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
   wire::Measurement measurement;
   measurement.fidelity = fidelity;
-  measurement.record = specimen;
+  measurement.record = wire::fit_to_send(specimen);
   const std::string history = history_of(specimen);
   if (!history.empty()) measurement.record.note += (specimen.note.empty() ? "" : " ") + history;
-  if (specimen.curve.size() > wire::kMaximumCurvePoints) {
-    // The area under the curve as recorded, not as thinned.
-    if (specimen.test == tester::TestKind::toughness)
-      measurement.record.toughness_pa = measurement::toughness_of(specimen);
-    measurement.record.curve = thinned(specimen.curve, wire::kMaximumCurvePoints);
-  }
   return {kChannel, wire::write(measurement)};
 }
 

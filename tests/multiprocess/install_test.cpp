@@ -137,27 +137,31 @@ std::string simulated_here(const std::string& design) {
   return said.str();
 }
 
-TEST_F(Installed, AProgramOfOnesOwnLinksToTheTester) {
-  fs::copy(kSources / "examples/simulate", work() / "simulate");
+TEST_F(Installed, ProgramsOfOnesOwnLinkToTesterAndClient) {
   const auto said = [](const std::vector<std::string>& words, int status = 0) {
     return said_by_program(hidden(work(), words), status);
   };
-  said({NACRE_CMAKE, "-S", "simulate", "-B", "build", "-DCMAKE_PREFIX_PATH=" + prefix().string()});
-  said({NACRE_CMAKE, "--build", "build"});
-  EXPECT_EQ(said({"build/simulate", "577fffe9fffdef"}), simulated_here("577fffe9fffdef"));
-  EXPECT_THAT(said({"build/simulate", "577"}, 2), HasSubstr("577"));
+  for (const std::string example : {"simulate", "laboratory"}) {
+    fs::copy(kSources / "examples" / example, work() / example);
+    const std::string build = example + "/build";
+    said({NACRE_CMAKE, "-S", example, "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix().string()});
+    said({NACRE_CMAKE, "--build", build});
+  }
+  EXPECT_EQ(said({"simulate/build/simulate", "577fffe9fffdef"}), simulated_here("577fffe9fffdef"));
+  EXPECT_THAT(said({"simulate/build/simulate", "577"}, 2), HasSubstr("577"));
+  EXPECT_THAT(said({"laboratory/build/laboratory", "no_run"}, 2), HasSubstr("no_run"));
 }
 
 TEST(Subdirectory, OfAnotherProjectGivesTheSameTargets) {
   const fs::path folder = fresh_folder("subdirectory");
-  std::ofstream(folder / "CMakeLists.txt") << "cmake_minimum_required(VERSION 3.25)\n"
-                                              "project(own LANGUAGES C CXX)\n"
-                                              "add_subdirectory(" NACRE_SOURCE_DIR
-                                              " nacre)\n"
-                                              "add_subdirectory(" NACRE_SOURCE_DIR "/examples/simulate simulate)\n";
+  std::ofstream list(folder / "CMakeLists.txt");
+  list << "cmake_minimum_required(VERSION 3.25)\nproject(own LANGUAGES C CXX)\n";
+  for (const std::string part : {"", "/examples/simulate", "/examples/laboratory"})
+    list << "add_subdirectory(" << kSources.string() << part << " part" << part << ")\n";
+  list.close();
   const auto configured = runtime::ask_program({NACRE_CMAKE, "-S", folder, "-B", folder / "build", "-DNACRE_CUDA=OFF"});
   EXPECT_TRUE(configured.end.orderly()) << configured.output;
-  EXPECT_FALSE(fs::exists(folder / "build/nacre/tests")) << "tests are the developers' own";
+  EXPECT_FALSE(fs::exists(folder / "build/part/tests")) << "tests are the developers' own";
 }
 
 /// Names in a list "a (>= 1), b", without what is in brackets.
