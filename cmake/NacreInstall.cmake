@@ -18,9 +18,12 @@ install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DO
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         FILES_MATCHING PATTERN "studies" EXCLUDE PATTERN "*.md" PATTERN "*.gif" PATTERN "*.png")
 
-# Debian's Python looks here in /usr; under another prefix PYTHONPATH names the folder.
+# Debian's Python looks here in /usr; under another prefix PYTHONPATH names the folder. What plays does not need it.
 if(NACRE_PYTHON)
-  install(TARGETS nacre_python LIBRARY DESTINATION lib/python3/dist-packages/nacre)
+  install(TARGETS nacre_python LIBRARY DESTINATION lib/python3/dist-packages/nacre OPTIONAL)
+  install(CODE "if(NOT EXISTS \"$<TARGET_FILE:nacre_python>\")
+    message(STATUS \"without the Python module: cmake --build build --target nacre_python makes it\")
+  endif()")
   install(DIRECTORY nodes/python/nacre/ DESTINATION lib/python3/dist-packages/nacre)
 endif()
 
