@@ -19,7 +19,7 @@ constexpr int kColours = 255;  // the 256th is for points that stay as they were
 constexpr GifByteType kUnchanged = 255;
 constexpr int kSampledPictures = 12;
 
-int channel(std::uint32_t rgb, int shift) { return static_cast<int>(rgb >> shift & 0xff); }
+int channel(std::uint32_t rgb, int shift) { return rgb >> shift & 0xff; }
 
 int distance(std::uint32_t a, std::uint32_t b) {
   int sum = 0;

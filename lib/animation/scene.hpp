@@ -13,7 +13,7 @@ class Scene {
   /// The film must outlive the scene. width_points >= 320.
   explicit Scene(const film::Film& film, int width_points = 960);
 
-  int frame_count() const { return static_cast<int>(film_.frames.size()); }
+  int frame_count() const { return film_.frames.size(); }
   Picture draw(int frame) const;
   /// Duration of the frame: longer for the first and the last.
   int hundredths_of_seconds(int frame) const;

@@ -20,7 +20,7 @@ int RandomStream::index(int count) {
   const std::uint64_t limit = UINT64_MAX - UINT64_MAX % n;
   std::uint64_t draw = engine_();
   while (draw >= limit) draw = engine_();
-  return static_cast<int>(draw % n);
+  return draw % n;
 }
 
 double RandomStream::normal() {

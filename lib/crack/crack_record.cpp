@@ -144,7 +144,7 @@ CrackRecord crack_record(const fem::Grid& notched, std::vector<tester::Break> or
   const FailureField field = field_of(notched, record.order);
   record.path = measured(field, cheapest_way(field, origins(field, record.order), record.order));
   std::vector<int> unreached;
-  record.branches = static_cast<int>(tips_of_branches(field, record.path->elements, record.order, unreached).size());
+  record.branches = tips_of_branches(field, record.path->elements, record.order, unreached).size();
   record.separate_cracks = count_groups(field, unreached);
   return record;
 }

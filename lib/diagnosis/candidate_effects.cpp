@@ -22,7 +22,7 @@ bool is_identified_by_moduli(const material::Effect& effect) {
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
   const DataRow& each = observations.rows[row];
   return each.kind == RowKind::mean && each.test == TestKind::modulus &&
-         observations.group_of(static_cast<int>(row)).design.layout() != nullptr;
+         observations.group_of(row).design.layout() != nullptr;
 }
 
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,

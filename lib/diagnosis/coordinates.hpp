@@ -52,7 +52,7 @@ class CoordinateMap {
  public:
   CoordinateMap(const Basis& basis, std::span<const std::string> effects);
   int size() const { return base_count() + static_cast<int>(extension_.size()); }
-  int base_count() const { return static_cast<int>(base_.size()); }
+  int base_count() const { return base_.size(); }
   const std::vector<std::string>& effects() const { return effects_; }
   double lower(int i) const;
   double upper(int i) const;

@@ -73,8 +73,7 @@ std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observation
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
     if (group.test == tester::TestKind::modulus || group.curve.empty()) continue;
-    curves.push_back({group.design.name(), group.test, group.conditions, group.curve,
-                      workbench.curve_at(static_cast<int>(g), base),
+    curves.push_back({group.design.name(), group.test, group.conditions, group.curve, workbench.curve_at(g, base),
                       workbench.curve_at(static_cast<int>(g), extended)});
   }
   return curves;

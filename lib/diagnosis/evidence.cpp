@@ -165,7 +165,7 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const FittedMode
     std::vector<std::string> names = anchor.effects;
     names.push_back(effect);
     const CoordinateMap map = model.map(names);
-    const int own = static_cast<int>(anchor.u.size());
+    const int own = anchor.u.size();
     Signature signature{effect, {}, map.lower(own) >= 0.0};
     std::vector<Eigen::VectorXd> points;
     for (const double size : signed_sizes(sizes, signature.one_sided)) {

@@ -65,7 +65,7 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
     };
     if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
     // A run breaks specimens of its own, so that what is fitted through all of them averages cracks.
-    const int number = static_cast<int>(runs_.size() + wanted.size());
+    const int number = runs_.size() + wanted.size();
     wanted.push_back({.id = fmt::format("run {}", number),
                       .parameters = simulated,
                       .toughness = true,

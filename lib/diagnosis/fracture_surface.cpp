@@ -211,7 +211,7 @@ void FractureSurface::learn() {
   for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
   variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   learnt_.assign(kinds.size(), {});
-  parallel_for(static_cast<int>(kinds.size()), [&](int k) {
+  parallel_for(kinds.size(), [&](int k) {
     const auto& rows = kinds[k];
     learnt_[k] = learn_feature(rows, values(Eigen::all, rows));
   });

@@ -83,7 +83,7 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
   for (int fold = 0; fold < kFolds; ++fold) {
     std::vector<bool> held(y.size(), false);
-    for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds)
+    for (std::size_t d = fold; d < designs.size(); d += kFolds)
       for (const Eigen::Index row : designs[d]) held[row] = true;
     std::vector<Eigen::Index> train;
     for (Eigen::Index row = 0; row < y.size(); ++row)
@@ -134,7 +134,7 @@ void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uin
   std::vector<double> reductions;
   for (int i = 0; i < kIntervalDraws; ++i) {
     std::vector<std::size_t> picks(errors.size());
-    for (std::size_t& pick : picks) pick = static_cast<std::size_t>(draws.index(static_cast<int>(errors.size())));
+    for (std::size_t& pick : picks) pick = draws.index(static_cast<int>(errors.size()));
     reductions.push_back(reduction(errors, picks));
   }
   std::sort(reductions.begin(), reductions.end());

@@ -127,7 +127,7 @@ struct Observations {
   int disconnected_batches = 0;  ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;  ///< of all specimens; 0: there is one batch, or none is known
   std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
-  int size() const { return static_cast<int>(rows.size()); }
+  int size() const { return rows.size(); }
   const Observation& group_of(int row) const { return groups[rows[row].group]; }
   bool has(tester::TestKind test) const;
   bool has_shared_discretisation() const { return discretisation_shared.rows() == size(); }

@@ -48,7 +48,7 @@ std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTe
                                                     const std::vector<FittedModel>& models, const FeatureModel& model,
                                                     tester::Fidelity fidelity) {
   std::vector<std::vector<FeatureValues>> seen(tests.size(), std::vector<FeatureValues>(models.size()));
-  parallel_for(static_cast<int>(tests.size() * models.size()), [&](int job) {
+  parallel_for(tests.size() * models.size(), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),
                       m = static_cast<std::size_t>(job) % models.size();
     const CoordinateMap map = model.map(models[m].effects);
@@ -155,7 +155,7 @@ void PredictedTests::put_fracture(std::size_t model, int row, const FeatureValue
 /// The tests behind the measured rows, with their joint covariance.
 void PredictedTests::join() {
   joined_ = measured_;
-  const int groups = static_cast<int>(measured_.groups.size());
+  const int groups = measured_.groups.size();
   joined_.groups.insert(joined_.groups.end(), added_.groups.begin(), added_.groups.end());
   for (DataRow row : added_.rows) {
     row.group += groups;

@@ -71,7 +71,7 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
   for (const auto test : {TestKind::modulus, TestKind::toughness}) {
     const std::vector<int> groups = three_groups(observations, test);
     std::vector<std::vector<FeatureValues>> values(groups.size(), std::vector<FeatureValues>(tried.size()));
-    parallel_for(static_cast<int>(groups.size() * tried.size()), [&](int job) {
+    parallel_for(groups.size() * tried.size(), [&](int job) {
       const std::size_t g = static_cast<std::size_t>(job) / tried.size(),
                         v = static_cast<std::size_t>(job) % tried.size();
       // A static test has neither time step nor rate.

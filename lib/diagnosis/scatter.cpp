@@ -130,7 +130,7 @@ Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int d
 int dof_within(const std::vector<Deviation>& deviations) {
   std::set<int> groups;
   for (const Deviation& d : deviations) groups.insert(d.group);
-  return static_cast<int>(deviations.size() - groups.size());
+  return deviations.size() - groups.size();
 }
 
 /// Whether every feature that all specimens show scatters less than is assumed.
@@ -212,7 +212,7 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   for (Eigen::Index f = 0; f < kFeatureCount; ++f) {
     for (Eigen::Index g = 0; g < kFeatureCount; ++g)
       if (f != g) scatter.covariance(f, g) *= keep;
-    const double least = least_sd(static_cast<std::size_t>(f));
+    const double least = least_sd(f);
     scatter.covariance(f, f) = std::max(scatter.covariance(f, f), least * least);
   }
   return scatter;

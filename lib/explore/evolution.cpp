@@ -35,7 +35,7 @@ class Evolution final : public Search {
  public:
   Evolution(const SearchSettings& settings, Variation variation)
       : variation_(variation),
-        population_size_(static_cast<std::size_t>(settings.population)),
+        population_size_(settings.population),
         ledger_(settings),
         start_(starting_patterns(settings)),
         tournament_(settings.seed, "explore/tournament"),
@@ -96,7 +96,7 @@ class Evolution final : public Search {
 
   /// Binary tournament.
   const pattern::Pattern& parent() {
-    const int size = static_cast<int>(population_.size());
+    const int size = population_.size();
     const Member& first = population_[tournament_.index(size)];
     const Member& second = population_[tournament_.index(size)];
     return (second.better_than(first) ? second : first).sample.pattern;

@@ -48,7 +48,7 @@ std::vector<Evaluated> barred_patterns(const BatchRequest& batch_request, int co
 /// The next patterns with bars that a search begins with, at most a batch; none once it has asked for enough.
 std::vector<pattern::Pattern> barred_start(const BatchRequest& batch_request) {
   const SearchSettings& settings = batch_request.settings;
-  const int asked = static_cast<int>(batch_request.evaluated.size() + batch_request.lost.size());
+  const int asked = batch_request.evaluated.size() + batch_request.lost.size();
   const int count = std::min(batch_request.count, settings.population + settings.learned.barred_start - asked);
   if (count <= 0 || !settings.former.empty()) return {};
   constexpr int kSpare = 10;  // some are equal or known
@@ -180,7 +180,7 @@ std::vector<pattern::Pattern> learned_batch(const BatchRequest& batch_request) {
   const Predictors predictors = fit_predictors(batch_request.evaluated, settings, base);
   const std::vector<Evaluated> candidates = candidates_for(batch_request, predictors);
   if (settings.learned.choice == "improvement") return choose_by_improvement(predictors, candidates, batch_request);
-  return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(batch_request.count)));
+  return patterns_of(best_by_rank(candidates, batch_request.count));
 }
 
 }  // namespace nacre::explore

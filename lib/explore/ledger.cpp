@@ -14,7 +14,7 @@ Ledger::Ledger(const SearchSettings& settings) : budget_(settings.budget), batch
 
 int Ledger::room() const {
   if (awaiting_) return 0;
-  const int in_batch = static_cast<int>(batch_.size());
+  const int in_batch = batch_.size();
   return std::min(batch_size_, budget_ - asked_) - in_batch;
 }
 
@@ -27,7 +27,7 @@ void Ledger::add(const pattern::Pattern& pattern) {
 
 std::vector<pattern::Pattern> Ledger::hand_out() {
   assert(!awaiting_ && "ask() before the last batch was told");
-  asked_ += static_cast<int>(batch_.size());
+  asked_ += batch_.size();
   awaiting_ = !batch_.empty();
   return batch_;
 }

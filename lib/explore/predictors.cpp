@@ -154,7 +154,7 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
 
 std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int most) {
   std::vector<Evaluated> learnt = best_by_rank(samples, samples.size());
-  const std::size_t all = learnt.size(), count = static_cast<std::size_t>(most), best = count / 2;
+  const std::size_t all = learnt.size(), count = most, best = count / 2;
   if (all <= count) return learnt;
   for (std::size_t i = best; i < count; ++i) learnt[i] = learnt[best + (i - best) * (all - best) / (count - best)];
   learnt.erase(learnt.begin() + most, learnt.end());

@@ -30,7 +30,7 @@ class DropletAxis {
   /// `length_um` of the specimen, `pixel_um` of a pixel; both even, positive.
   DropletAxis(int dpi, std::int64_t length_um, std::int64_t pixel_um);
 
-  int droplets() const { return static_cast<int>(places_.size()); }
+  int droplets() const { return places_.size(); }
   const AxisPlace& place(int droplet) const { return places_[droplet]; }
   /// Centre of a droplet from the specimen's edge.
   double centre_mm(int droplet) const { return pitch_mm_ * (droplet + 0.5); }

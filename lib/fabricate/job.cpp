@@ -140,7 +140,7 @@ void place_all(Job& job, double least_fill) {
                              .x_mm = place->first,
                              .y_mm = place->second});
   }
-  job.trays = static_cast<int>(trays.size());
+  job.trays = trays.size();
 }
 
 /// Print order and labels, tray by tray.

@@ -46,7 +46,7 @@ bool encode(png_structp png, png_infop info, const Slice& slice, const Printer& 
   png_set_write_fn(png, out, append, flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(slice.columns), static_cast<png_uint_32>(slice.rows), 8,
                PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_PLTE(png, info, kPalette.data(), static_cast<int>(kPalette.size()));
+  png_set_PLTE(png, info, kPalette.data(), kPalette.size());
   png_set_pHYs(png, info, per_metre(printer.dpi_x), per_metre(printer.dpi_y), PNG_RESOLUTION_METER);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, is_noise ? 1 : 6);
@@ -79,8 +79,8 @@ bool decode_head(png_structp png, png_infop info, PngSource* source, Slice* slic
   png_read_info(png, info);
   if (png_get_color_type(png, info) != PNG_COLOR_TYPE_PALETTE) png_error(png, "not indexed");
   png_set_packing(png);
-  slice->columns = static_cast<int>(png_get_image_width(png, info));
-  slice->rows = static_cast<int>(png_get_image_height(png, info));
+  slice->columns = png_get_image_width(png, info);
+  slice->rows = png_get_image_height(png, info);
   return true;
 }
 

@@ -43,7 +43,7 @@ class Programme {
  public:
   Programme(const std::vector<Earth>& sources, std::span<const double> weights) {
     int rows = 0;
-    for (const Earth& source : sources) rows += static_cast<int>(source.pixels.size());
+    for (const Earth& source : sources) rows += source.pixels.size();
     const int first_equality = rows;
     int row = 0;
     for (std::size_t k = 0; k < sources.size(); ++k) {
@@ -52,7 +52,7 @@ class Programme {
         for (int to = 0; to < kFreePixels; ++to) add_flow(row, pixel, to, k, weights[k], first_equality);
         ++row;
       }
-      if (k == 0) first_flows_ = static_cast<int>(costs_.size());
+      if (k == 0) first_flows_ = costs_.size();
     }
     // All sources end in the same histogram: source k's earth at each pixel equals the first one's.
     for (std::size_t k = 1; k < sources.size(); ++k) {
@@ -82,7 +82,7 @@ class Programme {
 
  private:
   void add_flow(int row, int from, int to, std::size_t source, double weight, int first_equality) {
-    const int column = static_cast<int>(costs_.size());
+    const int column = costs_.size();
     const double distance = free_pixel_distance(from, to);
     costs_.push_back(weight * distance * distance);
     add_entry(row, column, 1.0);

@@ -58,8 +58,8 @@ std::vector<Triangle> delaunay(const Eigen::MatrixX2d& points) {
   }
   Qhull qhull;
   char command[] = "qhull d Qt Qbb Qc";
-  const int failed = qh_new_qhull(qhull.state(), 2, static_cast<int>(points.rows()), coordinates.data(), False, command,
-                                  nullptr, qhull.sink());
+  const int failed =
+      qh_new_qhull(qhull.state(), 2, points.rows(), coordinates.data(), False, command, nullptr, qhull.sink());
   return failed ? std::vector<Triangle>{} : lower_triangles(qhull.state());
 }
 

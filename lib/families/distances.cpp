@@ -15,7 +15,7 @@ DistanceMatrix earth_movers_distances(std::span<const pattern::Pattern> patterns
   std::atomic<std::size_t> done = 0;
   const double all = static_cast<double>(patterns.size()) * (static_cast<double>(patterns.size()) - 1.0) / 2.0;
   // Rows from the longest to the shortest, so that no thread is left with a long one at the end.
-  parallel_for(static_cast<int>(patterns.size()), [&](int k) {
+  parallel_for(patterns.size(), [&](int k) {
     const std::size_t i = patterns.size() - 1 - static_cast<std::size_t>(k);
     for (std::size_t j = 0; j < i; ++j) matrix.set(i, j, earth_movers_distance(patterns[i], patterns[j]));
     const std::size_t pairs = done += i;

@@ -59,16 +59,16 @@ struct Surplus {
 std::int64_t cheapest_transport(const std::vector<Surplus>& sources, const std::vector<Surplus>& sinks) {
   using Graph = lemon::SmartDigraph;
   Graph graph;
-  graph.reserveNode(static_cast<int>(sources.size() + sinks.size()));
-  graph.reserveArc(static_cast<int>(sources.size() * sinks.size()));
+  graph.reserveNode(sources.size() + sinks.size());
+  graph.reserveArc(sources.size() * sinks.size());
   for (std::size_t i = 0; i < sources.size() + sinks.size(); ++i) graph.addNode();
   Graph::ArcMap<std::int64_t> cost(graph);
   Graph::NodeMap<std::int64_t> supply(graph);
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const Graph::Node from = Graph::nodeFromId(static_cast<int>(i));
+    const Graph::Node from = Graph::nodeFromId(i);
     supply[from] = sources[i].amount;
     for (std::size_t j = 0; j < sinks.size(); ++j) {
-      const Graph::Node to = Graph::nodeFromId(static_cast<int>(sources.size() + j));
+      const Graph::Node to = Graph::nodeFromId(sources.size() + j);
       supply[to] = sinks[j].amount;
       cost[graph.addArc(from, to)] = cost_table()[sources[i].pixel][sinks[j].pixel];
     }

@@ -13,7 +13,7 @@ namespace {
 
 Eigen::VectorXd centred_ranks(const std::vector<double>& values) {
   const std::vector<double> ranks = ranks_of(values);
-  const Eigen::Map<const Eigen::VectorXd> vector(ranks.data(), static_cast<Eigen::Index>(ranks.size()));
+  const Eigen::Map<const Eigen::VectorXd> vector(ranks.data(), ranks.size());
   return vector.array() - vector.mean();
 }
 
@@ -37,7 +37,7 @@ std::vector<Association> associations(const std::vector<FeatureColumn>& features
                                       const std::vector<FeatureColumn>& controls, std::uint64_t seed,
                                       int permutations) {
   check(features, outcome, controls);
-  const Eigen::Index rows = static_cast<Eigen::Index>(outcome.values.size());
+  const Eigen::Index rows = outcome.values.size();
   Eigen::MatrixXd known(rows, static_cast<Eigen::Index>(controls.size()));
   for (std::size_t k = 0; k < controls.size(); ++k)
     known.col(static_cast<Eigen::Index>(k)) = centred_ranks(controls[k].values);

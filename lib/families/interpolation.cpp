@@ -63,8 +63,7 @@ std::vector<Pattern> interpolated(const Pattern& seed, std::span<const Pattern> 
                                   const InterpolationSettings& settings) {
   const std::vector<Triangle> triangles = candidate_triangles(points, settings);
   std::vector<std::vector<Pattern>> found(triangles.size());
-  parallel_for(static_cast<int>(triangles.size()),
-               [&](int i) { found[i] = between(members, triangles[i], settings.divisions); });
+  parallel_for(triangles.size(), [&](int i) { found[i] = between(members, triangles[i], settings.divisions); });
   std::unordered_set<std::uint64_t> known;
   for (const Pattern& member : members) known.insert(member.bits());
   std::vector<Pattern> result;

@@ -169,13 +169,12 @@ Embedding isomap(const DistanceMatrix& distances, int neighbours) {
     throw InputError::format("isomap: expected at least four patterns and one neighbour, not {} and {}",
                              distances.count(), neighbours);
   const double far = kFarAway * std::max(largest_finite(distances), 1e-6);
-  Graph graph = neighbour_graph(distances, static_cast<std::size_t>(neighbours), far);
+  Graph graph = neighbour_graph(distances, neighbours, far);
   Embedding embedding;
   embedding.bridges = bridge_parts(graph, distances, far);
-  const Eigen::Index count = static_cast<Eigen::Index>(distances.count());
+  const Eigen::Index count = distances.count();
   Eigen::MatrixXd geodesics(count, count);
-  parallel_for(static_cast<int>(count),
-               [&](int i) { shortest_paths(graph, static_cast<std::size_t>(i), geodesics.col(i)); });
+  parallel_for(count, [&](int i) { shortest_paths(graph, i, geodesics.col(i)); });
   embedding.points = scaled(geodesics);
   embedding.residual_variance = residual_variance(geodesics, embedding.points);
   return embedding;

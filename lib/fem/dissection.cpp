@@ -21,7 +21,7 @@ class Dissector {
  public:
   Dissector(const Grid& grid, const std::vector<char>& held) : grid_(grid), held_(held), row_(held.size(), kNoRow) {
     dissect({.left = 0, .right = grid.columns, .bottom = 0, .top = grid.rows});
-    plan.unknowns = static_cast<int>(held.size());
+    plan.unknowns = held.size();
     // From the whole grid down, so that every border follows the rows it goes to and is moved in few long runs.
     for (std::size_t k = plan.blocks.size(); k-- > 0;) {
       DissectionBlock& block = plan.blocks[k];

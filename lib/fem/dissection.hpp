@@ -24,8 +24,8 @@ struct DissectionBlock {
   /// Of the others: the two halves, and where their borders go.
   std::array<int, 2> halves = {-1, -1};
   std::array<std::vector<BorderRun>, 2> half_runs;
-  int pivot_count() const { return static_cast<int>(pivots.size()); }
-  int border_count() const { return static_cast<int>(border.size()); }
+  int pivot_count() const { return pivots.size(); }
+  int border_count() const { return border.size(); }
 };
 
 /// The blocks in the order of elimination: halves before the block they divide, the whole grid last.

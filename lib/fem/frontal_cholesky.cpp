@@ -45,7 +45,7 @@ void FrontalCholesky::lay_out() {
     front.border_rows = padded_front_rows(front.border);
     fronts_.push_back(front);
     factor_start.push_back(factor_size);
-    factor_size += static_cast<std::size_t>(front.stride() * front.pivots);
+    factor_size += front.stride() * front.pivots;
     pivots += blocks[k].pivots.size();
     place_size[place[k]] = std::max(place_size[place[k]], static_cast<std::size_t>(front.border_rows * front.border));
     largest = std::max(largest, front.stride());

@@ -21,7 +21,7 @@ class CellPlan {
  public:
   explicit CellPlan(std::span<const double> sizes)
       : sizes_(sizes.begin(), sizes.end()), length_(std::accumulate(sizes.begin(), sizes.end(), 0.0)) {
-    grid_.columns = grid_.rows = static_cast<int>(sizes.size());
+    grid_.columns = grid_.rows = sizes.size();
     grid_.phase.assign(sizes.size() * sizes.size(), Phase::soft);
     for (const double height : sizes)
       for (const double width : sizes) {
@@ -57,7 +57,7 @@ class CellPlan {
 
  private:
   std::size_t place(int row, int column, int direction) const {
-    return static_cast<std::size_t>(2 * (row * (grid_.columns + 1) + column) + direction);
+    return 2 * (row * (grid_.columns + 1) + column) + direction;
   }
 
   std::vector<double> sizes_;

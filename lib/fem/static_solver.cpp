@@ -24,7 +24,7 @@ constexpr int kMaximumCorrections = 30;
 std::vector<char> held_unknowns(const Grid& grid) {
   const int nodes_per_row = grid.columns + 1;
   const int nodes = nodes_per_row * (grid.rows + 1);
-  std::vector<char> held(static_cast<std::size_t>(2 * nodes), 1);
+  std::vector<char> held(2 * nodes, 1);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       if (grid.phase[grid.index(row, column)] != Phase::empty)
@@ -152,7 +152,7 @@ Result<void> balance(const Grid& grid, Workspace& workspace, ExtendedState<doubl
 
 /// Displacements in the laboratory frame.
 std::vector<double> displacements(const Grid& grid, const ExplicitState<double>& state) {
-  std::vector<double> result(static_cast<std::size_t>(2 * (grid.columns + 1) * (grid.rows + 1)));
+  std::vector<double> result(2 * (grid.columns + 1) * (grid.rows + 1));
   for_every_unknown(grid, state.stride, [&](std::size_t unknown, int at, int direction) {
     result[unknown] = direction == 0 ? state.qx[at] : state.qy[at] + state.strain * (at / state.stride);
   });

@@ -44,7 +44,7 @@ std::vector<std::uint8_t> energy_levels(const tester::FractureFrame& frame, cons
 
 /// Nodes of intact elements. The others drift freely and are not drawn.
 std::vector<bool> held_nodes(const tester::FractureFrame& frame) {
-  std::vector<bool> held(static_cast<std::size_t>((frame.columns + 1) * (frame.rows + 1)), false);
+  std::vector<bool> held((frame.columns + 1) * (frame.rows + 1), false);
   for (int row = 0; row < frame.rows; ++row)
     for (int column = 0; column < frame.columns; ++column) {
       if (frame.material[row * frame.columns + column] == kVoid) continue;

@@ -153,7 +153,7 @@ Result<Film> read_film_parts(const json& header, std::string_view body) {
   try {
     read_header(header, film);
     for (const json& section : header.at("sections")) {
-      const auto bytes = static_cast<std::size_t>(count_in(section, "bytes", static_cast<int>(kLargestFile)));
+      const auto bytes = static_cast<std::size_t>(count_in(section, "bytes", kLargestFile));
       if (bytes > body.size()) return fail("section {} is cut off", section.at("name").get<std::string>());
       sections.push_back({section.at("name"), std::string(body.substr(0, bytes))});
       body.remove_prefix(bytes);

@@ -103,7 +103,7 @@ void ExtensionTrialErrors::add(int round, const std::vector<measurement::Replica
 
 ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
   ExtensionTrialStanding standing;
-  standing.designs = static_cast<int>(errors.size());
+  standing.designs = errors.size();
   if (errors.empty()) return standing;
   for (const OutOfSampleError& each : errors) {
     standing.adopted += std::abs(each.adopted) / standing.designs;

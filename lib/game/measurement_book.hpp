@@ -67,7 +67,7 @@ class MeasurementBook {
   /// in the given sequence, that they fulfil.
   std::vector<OrderProgress> progress(std::span<const Order> orders, int enough_valid) const;
 
-  int size() const { return static_cast<int>(entries_.size()); }
+  int size() const { return entries_.size(); }
 
  private:
   struct Reported {

@@ -18,7 +18,7 @@ class UnitDoubts {
   UnitDoubts(const material::ParameterSet& model, tester::Fidelity fidelity) : model_(model), fidelity_(fidelity) {}
   /// As a sentence; nothing where there is none.
   std::optional<std::string> about(const measurement::SpecimenRecord& specimen);
-  int simulations() const { return static_cast<int>(simulated_pa_.size()); }
+  int simulations() const { return simulated_pa_.size(); }
 
  private:
   /// Nothing where the simulation fails.

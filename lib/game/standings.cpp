@@ -23,7 +23,7 @@ std::vector<measurement::Replicates> summarise_nominally(const std::vector<measu
 bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }
 
 double mean_of_realisations(const std::vector<double>& values, RandomStream& random) {
-  const int count = static_cast<int>(values.size());
+  const int count = values.size();
   if (count < 2) return values.front();
   double sum = 0.0;
   for (int draw = 0; draw < count; ++draw) sum += values[random.index(count)];

@@ -56,8 +56,7 @@ Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int3
   return result;
 }
 
-BatchTester::BatchTester(std::unique_ptr<Device> device, int places)
-    : device_(std::move(device)), places_(static_cast<std::size_t>(places)) {}
+BatchTester::BatchTester(std::unique_ptr<Device> device, int places) : device_(std::move(device)), places_(places) {}
 
 int BatchTester::pending() const {
   return static_cast<int>(waiting_.size()) +
@@ -70,7 +69,7 @@ void BatchTester::fill_places() {
     if (places_[place]) continue;
     places_[place] = std::move(waiting_.front());
     waiting_.pop_front();
-    device_->load(static_cast<int>(place), places_[place]->test.image());
+    device_->load(place, places_[place]->test.image());
   }
 }
 
@@ -84,8 +83,8 @@ std::vector<NumberedResult> BatchTester::turn() {
     PreparedTest& test = places_[place]->test;
     const PlaceReport& report = reports[place];
     if (!test.follow(report.reactions) && report.inverted < 0) continue;
-    over.push_back({places_[place]->number, test.result(device_->failed_at(static_cast<int>(place)), report.inverted)});
-    device_->unload(static_cast<int>(place));
+    over.push_back({places_[place]->number, test.result(device_->failed_at(place), report.inverted)});
+    device_->unload(place);
     places_[place].reset();
   }
   return over;

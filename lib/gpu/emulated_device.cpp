@@ -28,7 +28,7 @@ void step_nodes(Specimen& specimen, std::int64_t step, int in_chunk, Reactions& 
 
 class EmulatedDevice : public Device {
  public:
-  explicit EmulatedDevice(int places) : places_(static_cast<std::size_t>(places)) {}
+  explicit EmulatedDevice(int places) : places_(places) {}
   std::string name() const override { return "this processor in a device's place"; }
   std::size_t free_bytes() const override { return std::size_t{1} << 30; }
 

@@ -211,12 +211,12 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
   const toml::table document = read_toml(text, source);
   Section top(document, source, "");
   Truth truth;
-  truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(seed)));
+  truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, seed));
   const std::string_view fidelity_name = top.text("fidelity", "full");
   const Result<tester::Fidelity> fidelity = tester::fidelity_from_string(fidelity_name);
   if (!fidelity) throw fault_at(source, *document.get("fidelity"), "fidelity", "tiny, preview or full");
   truth.fidelity = *fidelity;
-  truth.replicates = static_cast<int>(top.integer("replicates", 1, 1000, truth.replicates));
+  truth.replicates = top.integer("replicates", 1, 1000, truth.replicates);
   Section noise(top.table("noise"), source, "noise.");
   truth.noise.modulus = noise.number("modulus", 0.0, 0.5, truth.noise.modulus);
   truth.noise.toughness = noise.number("toughness", 0.0, 0.5, truth.noise.toughness);

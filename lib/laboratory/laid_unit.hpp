@@ -19,7 +19,7 @@ struct LaidUnit {
   std::vector<Site> site;
   std::vector<double> rigid_fraction;
 };
-inline std::size_t unit_index(int row, int column) { return static_cast<std::size_t>(row * kUnitElements + column); }
+inline std::size_t unit_index(int row, int column) { return row * kUnitElements + column; }
 
 /// Pixel (column, row) counted from the lower left, the unit repeated without end.
 bool rigid_at(const pattern::Layout& layout, int column, int row);

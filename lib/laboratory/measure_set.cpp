@@ -49,7 +49,7 @@ std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::ve
   for (const Experiment& experiment : experiments) whole += effort_of(experiment);
   int done = 0;
   std::mutex mutex;
-  parallel_for(static_cast<int>(experiments.size()), [&](int i) {
+  parallel_for(experiments.size(), [&](int i) {
     const auto q = static_cast<std::size_t>(i);
     responses[q] = respond(truth, experiments[q]);
     const std::lock_guard lock(mutex);

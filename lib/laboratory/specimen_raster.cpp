@@ -188,7 +188,7 @@ std::vector<double> voxel_strengths(const Truth& truth, const pattern::Design& d
                       fmt::format("voxels/{}/{}/{}", design.name(), making.orientation_deg, making.specimen));
   // Justus' approximation of the shape is right within 1 % from 5 to 60 %.
   const double shape = std::pow(variation, -1.086);
-  std::vector<double> factors(static_cast<std::size_t>(size.columns * size.rows));
+  std::vector<double> factors(size.columns * size.rows);
   for (double& factor : factors)
     factor = std::pow(-std::log(1.0 - stream.uniform()), 1.0 / shape) / std::tgamma(1.0 + 1.0 / shape);
   return factors;

@@ -93,7 +93,7 @@ void add_levels(const std::vector<Residual>& residuals, const std::string& facto
     effect.factor = factor;
     effect.level = level;
     effect.test = test;
-    effect.specimens = static_cast<int>(values.size());
+    effect.specimens = values.size();
     effects.push_back(effect);
   }
 }
@@ -129,7 +129,7 @@ void add_trend(const std::vector<Residual>& residuals, tester::TestKind test, st
   effect.factor = "print_order";
   effect.level = "per 10 specimens";
   effect.test = test;
-  effect.specimens = static_cast<int>(order.size());
+  effect.specimens = order.size();
   effects.push_back(effect);
 }
 

@@ -14,7 +14,7 @@
 
 namespace nacre::measurement {
 
-inline constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+inline constexpr std::size_t kAbsent = -1;
 
 /// The heading: positions of the known columns, and the other ones.
 struct SetHeading {

@@ -54,10 +54,10 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens, con
     (is_modulus ? modulus_steps : toughness_steps).push_back(batch_steps.at(specimen));
   }
   for (const std::string& batch : batches) group.batch_list += (group.batch_list.empty() ? "" : ",") + batch;
-  group.modulus_count = static_cast<int>(moduli.size());
+  group.modulus_count = moduli.size();
   group.modulus_pa = mean_of(moduli);
   group.modulus_sd_pa = standard_deviation(moduli);
-  group.toughness_count = static_cast<int>(toughnesses.size());
+  group.toughness_count = toughnesses.size();
   group.toughness_pa = mean_of(toughnesses);
   group.toughness_sd_pa = standard_deviation(toughnesses);
   group.modulus_batch_step = mean_of(modulus_steps);

@@ -16,7 +16,7 @@ bool is_number(std::string_view cell) {
 bool is_measured(std::string_view cell) { return is_number(cell) || number_with_unit(cell).has_value(); }
 
 std::size_t filled(const Cells& cells) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }));
+  return std::count_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); });
 }
 
 double score_of(const std::vector<std::string_view>& lines, char delimiter) {

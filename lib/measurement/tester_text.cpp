@@ -82,7 +82,7 @@ std::vector<TextRow> rows_of(std::string_view text, char delimiter) {
     TextRow row = first_row(text, delimiter);
     row.line = line;
     rows.push_back(row);
-    line += static_cast<int>(std::max<std::size_t>(lines_of(row.text).size(), 1));
+    line += std::max<std::size_t>(lines_of(row.text).size(), 1);
     text.remove_prefix(row.text.size());
     text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
   }

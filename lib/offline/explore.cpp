@@ -26,7 +26,7 @@ Explored explore_gamut(ExploreSettings settings, const ExploreEvents& events) {
   Explored explored;
   for (auto batch = ask(); !batch.empty(); batch = ask()) {
     std::vector<std::optional<optimize::Performance>> performances(batch.size());
-    parallel_for(static_cast<int>(batch.size()), [&](int i) {
+    parallel_for(batch.size(), [&](int i) {
       const auto index = static_cast<std::size_t>(i);
       if (stopped()) return;
       performances[index] =

@@ -82,7 +82,7 @@ tester::Simulation simulation_of(const pattern::Design& design, const SimulateSe
 void run_tests(std::vector<SimulatedDesign>& designs, const SimulateSettings& settings,
                const std::function<void()>& done) {
   const std::vector<SpecimenTest> tests = wanted_tests(designs, settings);
-  parallel_for(static_cast<int>(tests.size()), [&](int i) {
+  parallel_for(tests.size(), [&](int i) {
     const SpecimenTest& each = tests[static_cast<std::size_t>(i)];
     const tester::Simulation simulation = simulation_of(each.simulated->design, settings);
     if (each.test == tester::TestKind::modulus)
@@ -91,8 +91,7 @@ void run_tests(std::vector<SimulatedDesign>& designs, const SimulateSettings& se
       pull_specimen(*each.simulated, simulation, each.specimen, settings.choice.refine);
     if (done) done();
   });
-  parallel_for(static_cast<int>(designs.size()),
-               [&](int i) { sum_up(designs[static_cast<std::size_t>(i)], settings); });
+  parallel_for(designs.size(), [&](int i) { sum_up(designs[static_cast<std::size_t>(i)], settings); });
 }
 
 std::string departure_from_proposals(const pattern::Design& design) {

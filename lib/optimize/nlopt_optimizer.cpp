@@ -74,7 +74,7 @@ NloptOptimizer::NloptOptimizer(const BatchOptimizerSettings& settings)
     : settings_(settings), space_filling_(settings.dimension, settings.seed) {
   check_settings(settings_);
   std::vector<Point>& starts = settings_.starts;
-  if (starts.empty()) starts.push_back(Point(static_cast<std::size_t>(settings.dimension), 0.5));
+  if (starts.empty()) starts.push_back(Point(settings.dimension, 0.5));
 }
 
 std::vector<Point> NloptOptimizer::ask() {
@@ -193,7 +193,7 @@ void NloptOptimizer::tell(const std::vector<std::optional<double>>& values) {
     best_found_at_ = told_ + static_cast<int>(batch_.size());
   }
   for (std::size_t i = 0; i < batch_.size(); ++i) values_.emplace(batch_[i], values[i].value_or(penalty()));
-  told_ += static_cast<int>(batch_.size());
+  told_ += batch_.size();
   batch_.clear();
 }
 

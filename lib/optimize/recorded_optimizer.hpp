@@ -28,7 +28,7 @@ class RecordedOptimizer : public BatchOptimizer {
 
   /// Takes up what an earlier search was told without asking for it again.
   void restore(const std::vector<Evaluation>& told);
-  int told_count() const { return static_cast<int>(evaluations_.size()); }
+  int told_count() const { return evaluations_.size(); }
   /// Values of the first `count` evaluations; a failure counts as somewhat worse than the worst success among them.
   std::vector<double> values(std::size_t count = std::numeric_limits<std::size_t>::max()) const;
 

@@ -38,7 +38,7 @@ std::array<std::uint32_t, kBitCount> directions_of(const Dimension& dimension) {
   std::array<std::uint32_t, kBitCount> v{};
   const int degree = dimension.degree;
   for (int i = 0; i < kBitCount; ++i) {
-    const std::size_t at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     if (i < degree) {
       v[at] = dimension.first[at] << (kBitCount - 1 - i);
       continue;

@@ -185,7 +185,7 @@ Result<Layout> layout_from_text(std::string_view text, std::string_view source) 
       if (line[c] != '0' && line[c] != '1') {
         return fail("{}: line {}, column {}: {}, {}", source, r + 1, c + 1, shown(line[c]), kExpected);
       }
-      layout.set(static_cast<int>(r), static_cast<int>(c), line[c] == '1');
+      layout.set(r, c, line[c] == '1');
     }
     if (line.size() != kSide) {
       return fail("{}: line {}, column {}: the line has {} characters, {}", source, r + 1,

@@ -29,7 +29,7 @@ class Layout {
   Layout() = default;
   bool rigid(int row, int column) const { return bits_[row * kSide + column]; }
   void set(int row, int column, bool is_rigid) { bits_[row * kSide + column] = is_rigid; }
-  int rigid_count() const { return static_cast<int>(bits_.count()); }
+  int rigid_count() const { return bits_.count(); }
   double rigid_fraction() const { return rigid_count() / static_cast<double>(kPixels); }
   /// The layout turned by 90 degrees counter-clockwise.
   Layout rotated() const;

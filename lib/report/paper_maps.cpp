@@ -164,8 +164,8 @@ std::string interpolation_picture(const SubfamilyMap& map, ExhibitTable& table) 
 }
 
 std::size_t count_of(const SubfamilyMap& map, bool interpolated) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      map.points, [&](const MapPoint& p) { return (p.source == "interpolated") == interpolated; }));
+  return std::ranges::count_if(map.points,
+                               [&](const MapPoint& p) { return (p.source == "interpolated") == interpolated; });
 }
 
 }  // namespace

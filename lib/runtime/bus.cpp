@@ -288,7 +288,7 @@ int Bus::receive_raw(int timeout_ms, const std::function<void(Datagram)>& handle
 }
 
 const BusCounters& Bus::counters() const { return state_->counters; }
-int Bus::queued() const { return static_cast<int>(state_->waiting.size()); }
+int Bus::queued() const { return state_->waiting.size(); }
 std::int64_t Bus::epoch() const { return state_->options.epoch; }
 
 }  // namespace nacre::runtime

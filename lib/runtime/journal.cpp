@@ -110,7 +110,7 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   journal->warning_ = found.warning;
   journal->identity_ = found.identity;
   journal->writer_ = std::make_unique<LogWriter>(journal->path_, found.records);
-  journal->bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(journal->path_));
+  journal->bytes_ = std::filesystem::file_size(journal->path_);
   const auto expect_written = [&](const Result<void>& written) {
     if (!written) refuse_write(written.error().message, journal->writer_->reason());
   };

@@ -266,7 +266,7 @@ void Launch::show_output(SupervisedNode& node) {
 /// One turn of the launcher's loop: messages, output, ends and restarts, display.
 void Launch::turn(std::chrono::milliseconds wait) {
   if (endpoint_) {
-    endpoint_->pump(static_cast<int>(wait.count()), [this](const Received& received) { take_message(received); });
+    endpoint_->pump(wait.count(), [this](const Received& received) { take_message(received); });
   } else {
     std::this_thread::sleep_for(wait);
   }
@@ -296,7 +296,7 @@ void Launch::announce_when_ready() {
   const std::string missing = names_of_nodes_not_ready();
   if (missing.empty()) {
     wire::RunStart message;
-    message.seed = static_cast<std::int64_t>(run_.scenario().seed);
+    message.seed = run_.scenario().seed;
     message.scenario_hash = run_.manifest().scenario_hash;
     message.schema_version = kSchemaVersion;
     const auto offered = endpoint_->offer({"RUN", wire::write(message)});

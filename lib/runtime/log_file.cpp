@@ -24,7 +24,7 @@ constexpr std::int64_t kLongestChannel = 1000;
 std::int64_t read_integer(std::string_view bytes, std::int64_t offset, int size) {
   std::uint64_t value = 0;
   for (int i = 0; i < size; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[offset + i]);
-  return static_cast<std::int64_t>(value);
+  return value;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ struct LogReader::State {
     if (!bytes.empty()) ::munmap(const_cast<char*>(bytes.data()), bytes.size());
   }
 
-  std::int64_t size() const { return static_cast<std::int64_t>(bytes.size()); }
+  std::int64_t size() const { return bytes.size(); }
 
   /// Where the record at `offset` ends; nothing when there is no whole record.
   std::optional<std::int64_t> end_of_record(std::int64_t offset) const {
@@ -56,7 +56,7 @@ struct LogReader::State {
   std::optional<std::int64_t> next_sound(std::int64_t offset) const {
     for (std::size_t at = bytes.find(kMagic, static_cast<std::size_t>(offset) + 1); at != std::string_view::npos;
          at = bytes.find(kMagic, at + 1)) {
-      const auto end = end_of_record(static_cast<std::int64_t>(at));
+      const auto end = end_of_record(at);
       if (!end) continue;
       const std::string_view behind = bytes.substr(static_cast<std::size_t>(*end), kMagic.size());
       if (kMagic.starts_with(behind)) return static_cast<std::int64_t>(at);
@@ -74,7 +74,7 @@ LogReader::LogReader(const std::filesystem::path& path, std::int64_t from) : sta
     if (fd >= 0) ::close(fd);
     throw InputError::format("{}: cannot be read as a log: {}", path.string(), std::strerror(reason));
   }
-  const std::size_t size = static_cast<std::size_t>(status.st_size);
+  const std::size_t size = status.st_size;
   void* mapped = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0) : nullptr;
   const int reason = errno;
   ::close(fd);

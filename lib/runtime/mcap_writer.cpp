@@ -101,7 +101,7 @@ int McapWriter::add_channel(std::string_view topic, const std::string& schema_na
     chunk_ += bytes;
     schemas_ += bytes;
   }
-  const int id = static_cast<int>(message_counts_.size());
+  const int id = message_counts_.size();
   message_counts_[id] = 0;
   const std::string bytes = record(
       Opcode::channel, Bytes().u16(static_cast<std::uint64_t>(id)).u16(schema_id).text(topic).text("json").u32(0));

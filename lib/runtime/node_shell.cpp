@@ -332,7 +332,7 @@ class NodeShell {
     message.round = status.round;
     message.progress = std::clamp(status.progress, -1.0, 1.0);
     message.eta_s = eta_.seconds_left(status, now);
-    message.received = static_cast<std::int64_t>(inbox_.size());
+    message.received = inbox_.size();
     message.published = bus.published;
     message.retries = outbox_.retries();
     message.duplicates = inbox_.duplicates;

@@ -56,7 +56,7 @@ struct Recorder::State {
     if (!written) return written;
     unflushed = true;
     ++counters.messages;
-    counters.bytes += static_cast<std::int64_t>(datagram.bytes.size());
+    counters.bytes += datagram.bytes.size();
     const Result<wire::Blanked> blanked = wire::blank_header(datagram.channel, datagram.bytes);
     if (!blanked) return {};  // recorded all the same: that it was on the bus is what the log is for
     sequences.count(datagram.channel, blanked->header);

@@ -47,7 +47,7 @@ class Outbox {
   std::optional<std::int64_t> next_due() const;
 
   /// Messages that somebody has not acknowledged (or that were not sent yet).
-  int unacknowledged() const { return static_cast<int>(active_.size()); }
+  int unacknowledged() const { return active_.size(); }
   std::int64_t retries() const { return retries_; }
   /// Nodes that a message is still waiting for.
   std::set<std::string> waiting_for(const std::string& hash) const;

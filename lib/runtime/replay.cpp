@@ -73,7 +73,7 @@ class BusReplay {
       if (!sent_.count(hash))
         differs(fmt::format("a message on {} is sent now and was not sent then (or was not recorded)", channel));
     }
-    report_.outputs = static_cast<std::int64_t>(sent_.size());
+    report_.outputs = sent_.size();
     report_.equal = report_.difference.empty();
   }
 
@@ -141,7 +141,7 @@ ReplayReport replay_journal(const std::filesystem::path& journal, NodeCore& core
     report.difference = agreed.error().message;
     return report;
   }
-  report.unfinished = static_cast<std::int64_t>(unfinished.messages.size() + unfinished.computes.size());
+  report.unfinished = unfinished.messages.size() + unfinished.computes.size();
   if (report.unfinished > 0) report.note = "the node was stopped before it wrote down all that its last input caused";
   if (reader.end().torn_bytes > 0)
     report.note += fmt::format("{}the journal ends in a torn record", report.note.empty() ? "" : "; ");

@@ -79,7 +79,7 @@ RunCopy copy_files(const fs::path& run, const fs::path& to, const CopyDatabase& 
       }
       ++copy.files;
       copy.journals += kind == Kind::journal;
-      copy.bytes += static_cast<std::int64_t>(fs::file_size(to / file));
+      copy.bytes += fs::file_size(to / file);
     }
   }
   return copy;

@@ -22,8 +22,7 @@ int terminal_columns(int file_descriptor) {
 std::string bar(double progress, int cells) {
   const double share = std::isfinite(progress) ? std::clamp(progress, 0.0, 1.0) : 0.0;
   const int filled = static_cast<int>(share * cells);
-  return fmt::format("[{}{}]", std::string(static_cast<std::size_t>(filled), '#'),
-                     std::string(static_cast<std::size_t>(cells - filled), '.'));
+  return fmt::format("[{}{}]", std::string(filled, '#'), std::string(cells - filled, '.'));
 }
 
 void print_line(std::FILE* out, std::string_view line) {

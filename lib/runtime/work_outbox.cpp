@@ -37,7 +37,7 @@ void WorkOutbox::set_standing(std::string standing) {
 
 std::vector<FinishedWork> WorkOutbox::finished() {
   const std::lock_guard lock(mutex_);
-  pending_ -= static_cast<int>(finished_.size());
+  pending_ -= finished_.size();
   return std::exchange(finished_, {});
 }
 

@@ -93,7 +93,7 @@ std::vector<std::size_t> beam_search(std::span<const std::vector<pattern::Patter
     to_measured.reserve(bin.size());
     for (const pattern::Pattern& pattern : bin) to_measured.push_back(smallest_difference(pattern, measured));
     std::vector<Partial> next;
-    for (const Extension& best : best_extensions(beam, bin, to_measured, static_cast<std::size_t>(width))) {
+    for (const Extension& best : best_extensions(beam, bin, to_measured, width)) {
       next.push_back(extended(beam[best.partial], bin[best.candidate], best.candidate, to_measured[best.candidate]));
     }
     beam = std::move(next);

@@ -233,7 +233,7 @@ void SimulationCache::insert_breaks(const std::string& key, const std::vector<te
     SQLite::Statement insertion(*database_, "INSERT INTO breaks VALUES (?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
     const void* bytes = packed.empty() ? "" : static_cast<const void*>(packed.data());
-    insertion.bind(2, bytes, static_cast<int>(packed.size() * sizeof(PackedBreak)));
+    insertion.bind(2, bytes, packed.size() * sizeof(PackedBreak));
     const std::string_view pairs(static_cast<const char*>(bytes), packed.size() * sizeof(PackedBreak));
     insertion.bind(3, breaks_checksum(key, pairs));
     insertion.exec();

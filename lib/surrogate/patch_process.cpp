@@ -98,8 +98,7 @@ class Covariance {
     const auto n = static_cast<Index>(points.size());
     MatrixXd matrix(n, n);
     for (Index j = 0; j < n; ++j)
-      for (Index i = j; i < n; ++i)
-        matrix(i, j) = (*this)(points, static_cast<std::size_t>(i), points, static_cast<std::size_t>(j));
+      for (Index i = j; i < n; ++i) matrix(i, j) = (*this)(points, i, points, j);
     return matrix;
   }
 

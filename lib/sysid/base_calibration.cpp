@@ -25,7 +25,7 @@ constexpr std::array<double, kMaterials> kRigidFractions = {0.0, 1.0, 0.5};
 
 template <class Value>
 std::size_t at(Value place, int material) {
-  return static_cast<std::size_t>(static_cast<int>(place) + material);
+  return static_cast<int>(place) + material;
 }
 
 double middle_of(const ParameterRange& range) { return 0.5 * (range.minimum + range.maximum); }
@@ -269,7 +269,7 @@ struct BaseCalibration::State {
     for (std::size_t j = 0; j < predictions.size(); ++j)
       shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
-    result.simulations += static_cast<int>(predictions.size());
+    result.simulations += predictions.size();
     if (std::any_of(told.begin(), told.end(), [](const auto& each) { return !each; })) return;
     for (std::size_t k = 0; k < wanted.size(); ++k) hand_over(wanted[k], candidates[k], *told[k]);
     if (phase == Phase::start) {

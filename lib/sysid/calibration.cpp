@@ -227,7 +227,7 @@ struct Calibration::State {
     for (std::size_t j = 0; j < predictions.size(); ++j)
       shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
-    result.simulations += static_cast<int>(predictions.size());
+    result.simulations += predictions.size();
     if (std::any_of(told.begin(), told.end(), [](const auto& each) { return !each; })) return;
     hand_over();
     ask();

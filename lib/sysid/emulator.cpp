@@ -103,7 +103,7 @@ Eigen::VectorXd FeatureEmulator::covariances(const Eigen::VectorXd& at) const {
 }
 
 void FeatureEmulator::factorise() {
-  const Eigen::Index count = static_cast<Eigen::Index>(inputs_.size());
+  const Eigen::Index count = inputs_.size();
   Eigen::MatrixXd matrix(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
@@ -125,10 +125,10 @@ void FeatureEmulator::take_targets(const std::vector<FitTrial>& trials, std::siz
   centre_ = coordinates(trials[centre].point);
   inputs_.clear();
   for (const std::size_t k : used_) inputs_.push_back(coordinates(trials[k].point));
-  const Eigen::Index rows = static_cast<Eigen::Index>(used_.size());
+  const Eigen::Index rows = used_.size();
   targets_ = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(2 * design_count_));
   for (std::size_t i = 0; i < design_count_; ++i) {
-    const Eigen::Index column = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Index column = 2 * i;
     const std::optional<CurveFeatures> base = features_of(trials[centre].predictions[i]);
     for (Eigen::Index row = 0; base && row < rows; ++row) {
       const auto here = features_of(trials[used_[row]].predictions[i]);
@@ -239,7 +239,7 @@ double FeatureEmulator::deviation(const Point& point) const {
 Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,
                                bool poisson_searched) {
   constexpr double kStep = 0.05;
-  const Eigen::Index designs = static_cast<Eigen::Index>(design_count);
+  const Eigen::Index designs = design_count;
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * designs, kEtaCount);
   std::vector<FeatureChange> up, down;
   for (int j = 0; j < kEtaCount; ++j) {
@@ -251,7 +251,7 @@ Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at,
     moved[j] -= 2 * kStep;
     emulator.predict(moved, down);
     for (Eigen::Index i = 0; i < designs; ++i) {
-      const std::size_t index = static_cast<std::size_t>(i);
+      const std::size_t index = i;
       slopes(i, j) = (up[index].log_toughness - down[index].log_toughness) / (2 * kStep);
       slopes(designs + i, j) = (up[index].log_peak - down[index].log_peak) / (2 * kStep);
     }
@@ -271,7 +271,7 @@ ToughnessModel toughness_model(const FitData& data, const std::vector<FitTrial>&
   emulator.learn(trials, best);
   model.slopes =
       feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched)(Eigen::all, model.searched);
-  const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
+  const Eigen::Index designs = data.measured.size();
   model.residuals = model.weights = Eigen::VectorXd::Zero(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) {
     const measurement::Replicates& measured = data.measured[i];

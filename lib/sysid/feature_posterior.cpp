@@ -56,14 +56,14 @@ double FeaturePosterior::operator()(const Point& point, std::span<const FeatureC
 
 double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes, double deviation,
                                     const Eigen::VectorXd& shared) const {
-  const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
+  const Eigen::Index designs = toughness_.measured.size();
   Eigen::VectorXd offsets = Eigen::VectorXd::Zero(2 * designs);
   if (shared.size() > 0) offsets = shared_errors_ * shared;
   double cost = 0.5 * shared.squaredNorm();
   const auto add = [&](const Feature& feature, double FeatureChange::*change, Eigen::Index first) {
     double sum = 0.0, count = 0.0;
     for (Eigen::Index i = 0; i < designs; ++i) {
-      const std::size_t index = static_cast<std::size_t>(i);
+      const std::size_t index = i;
       const double residual =
           feature.base[index] + changes[index].*change - offsets[first + i] - feature.measured[index];
       if (std::isnan(residual)) continue;

@@ -69,7 +69,7 @@ class LeastSquaresFit final : public RecordedFit {
   }
 
  private:
-  int dimension() const { return static_cast<int>(problem_.searched.size()); }
+  int dimension() const { return problem_.searched.size(); }
   std::size_t coordinate(int j) const { return problem_.searched[j]; }
   int budget_left() const { return settings_.budget - static_cast<int>(trials_.size()); }
   void add_trial(const Point& point, std::vector<Prediction> predictions) {
@@ -219,8 +219,7 @@ class LeastSquaresFit final : public RecordedFit {
 
 std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& settings) {
   LeastSquaresProblem problem;
-  problem.weights =
-      Eigen::Map<const Eigen::VectorXd>(data.weights.data(), static_cast<Eigen::Index>(data.weights.size()));
+  problem.weights = Eigen::Map<const Eigen::VectorXd>(data.weights.data(), data.weights.size());
   problem.objective = [data](const std::vector<Prediction>& predictions) {
     return modulus_objective(data.measured, data.weights, predictions);
   };
@@ -241,7 +240,7 @@ std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& 
 }
 
 std::unique_ptr<ParameterFit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
-  const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
+  const Eigen::Index designs = data.measured.size();
   LeastSquaresProblem problem;
   problem.weights.resize(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) problem.weights[i] = problem.weights[designs + i] = data.weights[i];

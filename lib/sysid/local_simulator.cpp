@@ -97,16 +97,16 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
   }
   std::mutex one_at_a_time;
   parallel_for(
-      static_cast<int>(tasks.size()),
+      tasks.size(),
       [&](int index) {
-        const std::size_t k = static_cast<std::size_t>(index);
+        const std::size_t k = index;
         const Prediction prediction = run(tasks[k]);
         const std::lock_guard lock(one_at_a_time);
         state_->known.put(tasks[k].key, prediction);
         if (done) done();
       },
       state_->threads);
-  state_->simulations += static_cast<int>(tasks.size());
+  state_->simulations += tasks.size();
   std::vector<std::vector<Prediction>> predictions;
   for (const WantedEvaluation& evaluation : evaluations) {
     auto& of_items = predictions.emplace_back();

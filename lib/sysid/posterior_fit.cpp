@@ -38,7 +38,7 @@ class PosteriorFit final : public RecordedFit {
         others_(std::move(others)),
         emulator_(spans_, data_.measured.size()),
         posterior_(data_, settings.start, settings.floor),
-        splits_(static_cast<int>(kSplits.size()), settings.seed) {}
+        splits_(kSplits.size(), settings.seed) {}
 
   void tell(std::vector<std::vector<Prediction>> predictions) override {
     record_asked(std::move(predictions));

@@ -57,7 +57,7 @@ class RecordedFit : public ParameterFit {
       const double at = best().point[coordinates[k]];
       if (at <= 0.0 || at >= 1.0) jacobian.col(static_cast<Eigen::Index>(k)).setZero();
     }
-    return sysid::freedom_taken(jacobian, weights, prior_precision, static_cast<Eigen::Index>(data_.measured.size()));
+    return sysid::freedom_taken(jacobian, weights, prior_precision, data_.measured.size());
   }
 
   /// The part of the cost that needs no simulation.

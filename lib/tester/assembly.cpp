@@ -186,9 +186,9 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
       const double factor = anisotropy_factor(element.share_x, element.share_y, anisotropy);
       constants.young_pa *= factor;
       constants.threshold_j_per_m3 *= factor;
-      set_element(grid, static_cast<std::size_t>(grid.index(row, column)), material::confined(constants, confinement),
+      set_element(grid, grid.index(row, column), material::confined(constants, confinement),
                   nearest_phase(element.mean_fraction), refinement);
-      if (laws.any()) set_law(grid, static_cast<std::size_t>(grid.index(row, column)), laws, element.mean_fraction);
+      if (laws.any()) set_law(grid, grid.index(row, column), laws, element.mean_fraction);
     }
 }
 

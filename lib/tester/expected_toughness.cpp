@@ -23,7 +23,7 @@ ExpectedToughness expected_toughness_of(std::vector<ToughnessResult> specimens) 
 Result<ExpectedToughness> expected_toughness(const Simulation& simulation, int count,
                                              const Discretisation& discretisation, int threads) {
   assert(count >= 1);
-  std::vector<Result<ToughnessResult>> tested(static_cast<std::size_t>(count), fail("not tested"));
+  std::vector<Result<ToughnessResult>> tested(count, fail("not tested"));
   parallel_for(
       count,
       [&](int i) {

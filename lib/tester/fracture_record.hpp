@@ -34,7 +34,7 @@ class FractureRecord {
   /// The mean over the last `length` values.
   class MovingMean {
    public:
-    explicit MovingMean(int length) : values_(static_cast<std::size_t>(length)) {}
+    explicit MovingMean(int length) : values_(length) {}
     void add(double value);
     double mean() const { return count_ ? sum_ / static_cast<double>(count_) : 0.0; }
     bool full() const { return count_ == values_.size(); }

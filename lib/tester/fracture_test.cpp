@@ -141,7 +141,7 @@ Result<MountedSpecimen<Real>> mount(const FractureTest& test) {
   if (!solver) return tl::unexpected(solver.error());
   for (std::size_t node = 0; 2 * node < rest->displacement.size(); ++node) {
     const Eigen::Vector2d displacement(rest->displacement[2 * node], rest->displacement[2 * node + 1]);
-    const int at = static_cast<int>(node);
+    const int at = node;
     solver->set_node(at, displacement * test.grid.element_size_m, solver->velocity_m_per_s(at));
   }
   if (!rest->displacement.empty()) solver->relax();

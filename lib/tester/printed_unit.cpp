@@ -198,7 +198,7 @@ std::vector<double> blurred_fractions(const PrintedUnit& unit, double blur_pixel
       sum += row[offset + reach] * value_at(wrapped(position / parts + offset, cells));
     return std::clamp(sum, 0.0, 1.0);
   };
-  std::vector<double> along_x(static_cast<std::size_t>(cells * side)), result(static_cast<std::size_t>(side * side));
+  std::vector<double> along_x(cells * side), result(side * side);
   for (int row = 0; row < cells; ++row)
     for (int column = 0; column < side; ++column)
       along_x[row * side + column] = blur_line([&](int c) { return unit.rigid_fraction[unit.index(row, c)]; }, column);

@@ -18,7 +18,7 @@ struct PrintedUnit {
   std::vector<double> joins_x, joins_y;
 
   int side() const { return kElementsPerUnit * cells; }
-  std::size_t index(int row, int column) const { return static_cast<std::size_t>(row * side() + column); }
+  std::size_t index(int row, int column) const { return row * side() + column; }
 };
 
 /// Figure 2-5C: an element takes the value of the pixels it touches when they agree, else it is interface.

@@ -89,7 +89,7 @@ std::vector<SimulateResult> simulate_response(const std::string& request_id,
     filled += size;
     response.back().results.push_back(results[i]);
   }
-  for (SimulateResult& part : response) part.chunks = static_cast<int>(response.size());
+  for (SimulateResult& part : response) part.chunks = response.size();
   return response;
 }
 

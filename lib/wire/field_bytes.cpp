@@ -40,7 +40,7 @@ void FieldWriter::put_value(const std::string& value) {
 }
 
 void FieldWriter::put_count(std::size_t count) {
-  put_integer(static_cast<std::int64_t>(count), 4);
+  put_integer(count, 4);
   count_ = count;
   is_cut_ = false;
 }
@@ -69,7 +69,7 @@ std::string FieldReader::get_value(bool& value) {
 std::string FieldReader::get_value(int& value) {
   std::int64_t number = 0;
   std::string fault = get_integer(number, 4);
-  value = static_cast<int>(number);
+  value = number;
   return fault;
 }
 

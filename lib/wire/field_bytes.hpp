@@ -133,7 +133,7 @@ class FieldWriter {
   void put_value(tester::Fidelity value) { put_integer(static_cast<int>(value), 1); }
   void put_value(tester::TestKind value) { put_integer(static_cast<int>(value), 1); }
   void put_value(material::CriterionKind value) { put_integer(static_cast<int>(value), 1); }
-  void put_value(const pattern::Pattern& value) { put_integer(static_cast<std::int64_t>(value.bits()), 8); }
+  void put_value(const pattern::Pattern& value) { put_integer(value.bits(), 8); }
   void put_value(double value);
   void put_value(const std::string& value);
   void put_value(const pattern::Design& value) { put_value(value.name()); }
@@ -183,7 +183,7 @@ class FieldReader {
     if (number < 0 || static_cast<std::size_t>(number) > bytes_.size())
       fault_ = fmt::format(".{}: length {} does not fit the message", name, number);
     else
-      count_ = static_cast<std::size_t>(number);
+      count_ = number;
   }
   void first(std::string_view name, const auto& list, const Range& range) { count(name, list, range); }
   template <class Check = Any>

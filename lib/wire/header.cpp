@@ -54,10 +54,10 @@ std::uint64_t checksum_of(std::string_view channel, std::string_view bytes_with_
 /// Reads over a header; the reader then stands behind it. `checksum_position`: where its checksum begins.
 Header read_header(HeaderReader& reader, std::size_t& checksum_position) {
   Header header;
-  header.utime = static_cast<std::int64_t>(reader.integer(8));
+  header.utime = reader.integer(8);
   header.node = reader.text();
-  header.epoch = static_cast<std::int64_t>(reader.integer(8));
-  header.seq = static_cast<std::int64_t>(reader.integer(8));
+  header.epoch = reader.integer(8);
+  header.seq = reader.integer(8);
   checksum_position = reader.position;
   reader.integer(8);
   header.run_id = reader.text();
@@ -123,7 +123,7 @@ std::int64_t fingerprint_of(std::string_view bytes) {
   if (bytes.size() < kFingerprintSize) return 0;
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < kFingerprintSize; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
-  return static_cast<std::int64_t>(value);
+  return value;
 }
 
 std::string message_hash(std::string_view channel, std::string_view payload) {

@@ -52,7 +52,7 @@ void set_length(Member& member, const std::string& length, const std::vector<Mem
     return;
   }
   for (std::size_t i = 0; i < earlier.size(); ++i) {
-    if (earlier[i].name == length) member.count_member = static_cast<int>(i);
+    if (earlier[i].name == length) member.count_member = i;
   }
   if (member.count_member < 0) throw std::logic_error("array " + member.name + " of unknown length " + length);
 }

@@ -120,7 +120,7 @@ class Walk {
   bool integer_value(std::size_t size, const Place& place, std::int64_t* out) {
     std::uint64_t raw = 0;
     if (!take(size, place, raw)) return false;
-    const int unused_bits = static_cast<int>(64 - 8 * size);
+    const int unused_bits = 64 - 8 * size;
     const std::int64_t number = static_cast<std::int64_t>(raw << unused_bits) >> unused_bits;  // sign extension
     if (out) *out = number;
     visitor_.integer(place, number);

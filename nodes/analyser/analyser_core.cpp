@@ -226,7 +226,7 @@ void AnalyserCore::accept_response(const wire::SimulateResult& part) {
   const auto open = open_responses_.find(part.request_id);
   if (open == open_responses_.end()) return;
   OpenResponse& response = open->second;
-  response.chunks = static_cast<std::size_t>(part.chunks);
+  response.chunks = part.chunks;
   response.chunk.insert(part.chunk);
   for (std::size_t i = 0; i < part.results.size(); ++i)
     if (part.results[i].failure.empty()) response.broke.insert(static_cast<std::size_t>(part.first) + i);

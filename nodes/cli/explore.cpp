@@ -41,8 +41,8 @@ void print_summary(const offline::Explored& explored, const Options& options) {
   const nlohmann::ordered_json document = offline::to_json(explored, options.out);
   if (options.json) return print_json(document);
   fmt::print("{} simulated ({} failed), {} of them on the Pareto front, hypervolume {:.4f} GPa MPa; written to {}\n",
-             counted(static_cast<std::int64_t>(explored.gamut.size()), "pattern"), explored.failed,
-             document["front"].get<int>(), document["hypervolume_gpa_mpa"].get<double>(), options.out);
+             counted(explored.gamut.size(), "pattern"), explored.failed, document["front"].get<int>(),
+             document["hypervolume_gpa_mpa"].get<double>(), options.out);
 }
 
 explore::SearchSettings search_settings(const Options& options) {

@@ -75,7 +75,7 @@ void print_family(const nlohmann::ordered_json& family) {
 void print_proposed(const std::vector<SeedFamily>& proposed, const std::filesystem::path& file, bool json) {
   nlohmann::ordered_json document = {{"file", file.string()}, {"families", nlohmann::ordered_json::array()}};
   for (const SeedFamily& family : proposed) {
-    if (!json) fmt::print("{}: {}\n", family.name, counted(static_cast<std::int64_t>(family.seeds.size()), "seed"));
+    if (!json) fmt::print("{}: {}\n", family.name, counted(family.seeds.size(), "seed"));
     auto& entry = document["families"].emplace_back(nlohmann::ordered_json{{"name", family.name}});
     for (const Pattern& seed : family.seeds) entry["seeds"].push_back(seed.key());
   }

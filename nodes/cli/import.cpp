@@ -75,7 +75,7 @@ void print_import(const measurement::Import& import, const Options& options, con
                  one.record.valid ? "" : "  NOT VALID");
       for (const std::string& decision : one.decisions) fmt::print("    {}\n", decision);
     }
-    fmt::print("{}{}{}, {} rejected: {}\n", counted(static_cast<std::int64_t>(import.specimens.size()), "specimen"),
+    fmt::print("{}{}{}, {} rejected: {}\n", counted(import.specimens.size(), "specimen"),
                import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
                import.replaced > 0 ? fmt::format(" ({} replaced)", import.replaced) : "", import.rejected.size(),
                set.empty() ? "no set written" : set);
@@ -167,9 +167,7 @@ class Told {
 std::optional<bool> is_approved(const Options& options, std::size_t specimens) {
   if (options.yes) return true;
   if (options.out.empty() || ::isatty(STDIN_FILENO) == 0) return std::nullopt;
-  std::cerr << fmt::format("Import {} into {}? [y/N] ", counted(static_cast<std::int64_t>(specimens), "specimen"),
-                           options.out)
-            << std::flush;
+  std::cerr << fmt::format("Import {} into {}? [y/N] ", counted(specimens, "specimen"), options.out) << std::flush;
   std::string answer;
   std::getline(std::cin, answer);
   return answer == "y" || answer == "Y" || answer == "yes";

@@ -34,7 +34,7 @@ int measure(const Options& options) {
   if (options.orientation == "90") campaign.orientations_deg = {90.0};
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
   prepare_output_folder(options.out);
-  remark(fmt::format("measuring {}", counted(static_cast<std::int64_t>(campaign.designs.size()), "design")));
+  remark(fmt::format("measuring {}", counted(campaign.designs.size(), "design")));
   Progress progress("measure:");
   const auto records =
       laboratory::measure_set(options.laboratory, options.out, campaign, [&](double share, int done, int all) {
@@ -45,8 +45,7 @@ int measure(const Options& options) {
   if (options.json) {
     print_json({{"specimens", records.size()}, {"valid", valid}, {"set", options.out}});
   } else {
-    fmt::print("{} ({} valid): {}\n", counted(static_cast<std::int64_t>(records.size()), "specimen"), valid,
-               options.out);
+    fmt::print("{} ({} valid): {}\n", counted(records.size(), "specimen"), valid, options.out);
   }
   return valid > 0 ? 0 : 1;
 }

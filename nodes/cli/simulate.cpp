@@ -77,7 +77,7 @@ void run_tests(std::vector<SimulatedDesign>& designs, const Options& options, co
   Progress progress("simulate: tests", count * settings.tests_of_a_design());
   offline::run_tests(designs, settings, [&] { progress.advance(); });
   if (!options.wants_films()) return;
-  parallel_for(static_cast<int>(count), [&](int i) {
+  parallel_for(count, [&](int i) {
     const SimulatedDesign& simulated = designs[static_cast<std::size_t>(i)];
     if (simulated.toughness && is_first(simulated, designs))
       film_specimen(simulated, simulation_of(simulated.design, settings), options);

@@ -43,7 +43,7 @@ std::vector<wire::SimulateRequest> Branch::requests_for(const wire::SimulateRequ
   }
   ++generation_;
   performances_.assign(patterns.size(), std::nullopt);
-  simulated_ += static_cast<int>(patterns.size());
+  simulated_ += patterns.size();
   requests = requests_for_patterns(patterns, model, fmt::format("{}/g{}", prefix_, generation_));
   for (std::size_t part = 0; part < requests.size(); ++part) {
     first_.emplace(requests[part].request_id, part * wire::kMaximumDesigns);

@@ -98,7 +98,7 @@ int run_batch_task(const fs::path& folder, const std::string& wave, int task) {
   std::vector<BatchRecord> records;
   for (const std::string& spec : tests->specs) {
     records.push_back(simulated(cache, tests->films, spec));
-    sign.report_done(static_cast<int>(records.size()));
+    sign.report_done(records.size());
   }
   if (!still_wanted(spool, *batch)) return 0;
   write_file_atomically(spool.result(*batch), write_batch_result(*batch, records));

@@ -197,7 +197,7 @@ void FarmCore::respond(const wire::SimulateRequest& request, runtime::Outputs& o
     std::optional<wire::Fracture> fracture = open_test(request, request.designs[i], *filmed).response.fracture;
     if (!fracture) continue;
     fracture->request_id = request.request_id;
-    fracture->design_index = static_cast<int>(i);
+    fracture->design_index = i;
     if (!request.film) fracture->film.clear();  // the response does not depend on what others requested
     outputs.messages.push_back({"FRACTURE", wire::write(*fracture)});
   }

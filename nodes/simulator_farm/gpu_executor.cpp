@@ -39,7 +39,7 @@ std::vector<runtime::FinishedWork> GpuExecutor::finished() {
     const std::lock_guard lock(mutex_);
     for_threads = std::exchange(for_threads_, {});
   }
-  outbox_.pass_on(static_cast<int>(for_threads.size()));
+  outbox_.pass_on(for_threads.size());
   for (runtime::Compute& compute : for_threads) threads_of_processor_.start(std::move(compute));
   std::vector<runtime::FinishedWork> all = outbox_.finished();
   for (runtime::FinishedWork& work : threads_of_processor_.finished()) all.push_back(std::move(work));

@@ -112,7 +112,7 @@ std::string filmed(const std::filesystem::path& folder, const std::string& key, 
 wire::Fracture fracture_of(const tester::Simulation& simulation, std::vector<tester::Break> breaks) {
   wire::Fracture fracture;
   fracture.design = simulation.design;
-  fracture.broken = static_cast<int>(breaks.size());
+  fracture.broken = breaks.size();
   fracture.crack = crack::record_of(simulation, std::move(breaks));
   return fracture;
 }

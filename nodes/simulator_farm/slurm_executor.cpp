@@ -358,7 +358,7 @@ void SlurmExecutor::take_submission(const runtime::ProgramOutput& said) {
   }
   if (said.end.orderly()) {
     refusals_ = 0;
-    counters_.tasks += static_cast<int>(given.batches.size());
+    counters_.tasks += given.batches.size();
     next_listing_s_ = now_s() + settings_.poll_s;
     return;
   }

@@ -139,7 +139,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
   family.round = beginning_.round;
   family.fidelity = scenario_.fidelity;
   family.number = static_cast<int>(families_.size()) - 1;
-  family.count = static_cast<int>(groups_.size());
+  family.count = groups_.size();
   family.name = group.name;
   const std::size_t room = wire::kMostFamilyDesigns - static_cast<std::size_t>(scenario_.families.designs);
   if (group.seeds.size() > room)
@@ -207,7 +207,7 @@ void FamilyStage::choose(runtime::Outputs& outputs) {
     if (predictions[i].modulus_pa && predictions[i].toughness_pa)
       gamut_.push_back({variants_[i], {*predictions[i].modulus_pa, *predictions[i].toughness_pa}});
   }
-  family.samples = static_cast<int>(gamut_.size());
+  family.samples = gamut_.size();
   for (const select::Selected& each :
        select::select_with_reserve(gamut_, beginning_.settled, beginning_.benchmark, scenario_.families.designs)) {
     family.designs.push_back(

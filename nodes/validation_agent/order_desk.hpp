@@ -47,7 +47,7 @@ class OrderDesk {
   Result<std::vector<game::Order>> add_own(const pattern::Design& design, bool now);
 
   /// Number of proposed designs of the open round that still wait for a person.
-  int awaiting_approval() const { return static_cast<int>(waiting_.size()); }
+  int awaiting_approval() const { return waiting_.size(); }
 
   /// Designs of persons that wait for the next round.
   const std::vector<pattern::Design>& own() const { return own_; }

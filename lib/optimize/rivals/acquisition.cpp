@@ -20,7 +20,7 @@ constexpr double kTail = -10.0;  // where the expectation is a difference of nea
 double log_normal_density(double z) { return -0.5 * z * z - 0.5 * std::log(2.0 * std::numbers::pi); }
 
 double steepest_slope(const GaussianProcess& process, std::uint64_t seed) {
-  const int dimension = static_cast<int>(process.kernel().lengths.size());
+  const int dimension = process.kernel().lengths.size();
   double largest = 0.0;
   SobolPoints points(dimension, seed);
   for (int k = 0; k < kSlopePoints; ++k)

@@ -67,7 +67,7 @@ class BayesianOptimizer final : public RecordedOptimizer {
 
   RegressionData observations(int count) const {
     std::vector<Point> known;
-    const std::vector<double> value = values(static_cast<std::size_t>(count));
+    const std::vector<double> value = values(count);
     for (int i = 0; i < count; ++i) known.push_back(evaluations_[i].point);
     return {to_rows(known, settings_.dimension), Eigen::Map<const VectorXd>(value.data(), count),
             VectorXd::Constant(count, settings_.value_deviation * settings_.value_deviation)};

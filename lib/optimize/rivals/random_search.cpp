@@ -13,7 +13,7 @@ class RandomSearch final : public RecordedOptimizer {
 
  private:
   std::vector<Point> propose(int count) override {
-    std::vector<Point> points(count, Point(static_cast<std::size_t>(settings_.dimension)));
+    std::vector<Point> points(count, Point(settings_.dimension));
     for (Point& point : points) {
       for (double& coordinate : point) coordinate = random_.uniform();
     }

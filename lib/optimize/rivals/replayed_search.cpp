@@ -14,7 +14,7 @@ namespace {
 class ReplayedSearch final : public RecordedOptimizer {
  public:
   ReplayedSearch(nlopt::algorithm algorithm, const BatchOptimizerSettings& settings) : RecordedOptimizer(settings) {
-    const Point middle(static_cast<std::size_t>(settings_.dimension), 0.5);
+    const Point middle(settings_.dimension, 0.5);
     search_ = {.algorithm = algorithm,
                .start = settings_.starts.empty() ? middle : settings_.starts.front(),
                .step = 0.2,

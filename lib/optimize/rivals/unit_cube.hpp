@@ -9,7 +9,7 @@
 namespace nacre::optimize {
 
 inline Eigen::VectorXd to_vector(const Point& point) {
-  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+  return Eigen::Map<const Eigen::VectorXd>(point.data(), point.size());
 }
 inline Point to_point(const Eigen::VectorXd& vector) { return {vector.data(), vector.data() + vector.size()}; }
 

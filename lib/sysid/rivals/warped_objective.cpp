@@ -24,7 +24,7 @@ GridCurve on_grid(const tester::Curve& curve) {
 
 double stress_on(const GridCurve& curve, double strain) {
   const double position = strain / curve.step;
-  const std::size_t index = static_cast<std::size_t>(position);
+  const std::size_t index = position;
   if (index + 1 >= curve.stress_pa.size()) return 0.0;
   const double t = position - static_cast<double>(index);
   return (1.0 - t) * curve.stress_pa[index] + t * curve.stress_pa[index + 1];
