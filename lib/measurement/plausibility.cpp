@@ -152,6 +152,22 @@ std::optional<ImportFault> implausible_record(const TesterRecord& record, const 
   return std::nullopt;
 }
 
+namespace {
+
+/// Row at which the force falls from well above zero to zero at once and is borne again later: nothing that breaks
+/// does.
+std::optional<std::size_t> zeroed_at(const std::vector<double>& stress_pa, double peak_pa) {
+  constexpr double kZero = 0.02, kLoaded = 0.1, kBorneAgain = 0.2;  // of the peak
+  for (std::size_t i = 1; i < stress_pa.size(); ++i) {
+    if (stress_pa[i - 1] < kLoaded * peak_pa || std::abs(stress_pa[i]) > kZero * peak_pa) continue;
+    if (*std::max_element(stress_pa.begin() + static_cast<std::ptrdiff_t>(i), stress_pa.end()) > kBorneAgain * peak_pa)
+      return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<std::string> doubts_of_course(const std::vector<double>& stress_pa) {
   constexpr double kNegative = 0.02, kShareAtLimit = 0.05;  // of the peak; of the rows
   constexpr std::ptrdiff_t kRowsAtLimit = 10;
@@ -164,6 +180,11 @@ std::vector<std::string> doubts_of_course(const std::vector<double>& stress_pa) 
         fmt::format("the force falls to {:.0f} % of its peak before it: was it not set to zero, or did signs "
                     "get lost?",
                     100.0 * least / *peak));
+  if (const auto row = zeroed_at(stress_pa, *peak))
+    doubts.push_back(
+        fmt::format("the force falls from {:.0f} % of its peak to zero at once and rises again: was it set to zero "
+                    "during the pull, or do two tests stand in one record?",
+                    100.0 * stress_pa[*row - 1] / *peak));
   const auto left = std::find_if(peak, stress_pa.end(), [&](double value) { return value != *peak; });
   if (left - peak >= kRowsAtLimit &&
       static_cast<double>(left - peak) > kShareAtLimit * static_cast<double>(stress_pa.size()))

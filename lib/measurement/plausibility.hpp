@@ -18,7 +18,7 @@ std::optional<std::size_t> decimal_jump(const std::vector<double>& values, bool 
 std::optional<ImportFault> implausible_record(const TesterRecord& record, const std::string& file);
 
 /// Doubts about the course of the force from the pull's beginning on, as sentences: it is negative on the way to its
-/// peak, or stays at its largest value to the last digit.
+/// peak, falls to zero at once and rises again, or stays at its largest value to the last digit.
 std::vector<std::string> doubts_of_course(const std::vector<double>& stress_pa);
 
 /// Units for columns whose headings have none: those with which modulus, peak stress and failure strain are ones of the
