@@ -77,13 +77,21 @@ std::string game_line(const std::vector<NodeView>& views, int rounds) {
                      left.empty() ? "" : ", " + left);
 }
 
+std::string time_left_of_game(const RoundClock& clock, int rounds, RoundClock::Clock::time_point now) {
+  const std::optional<double> round_s = clock.round_left_s(now), game_s = clock.game_left_s(rounds, now);
+  if (!round_s || !game_s) return "";
+  return fmt::format("; {} of the round, {} of the game", about_in_words(*round_s), about_in_words(*game_s));
+}
+
 void LiveDisplay::erase_lines() {
   if (!drawn_.empty()) std::fprintf(out_, "\x1b[%zuA\r\x1b[J", drawn_.size());
   drawn_.clear();
 }
 
 void LiveDisplay::show(const std::vector<NodeView>& views, Clock::time_point now) {
-  const std::string game = game_line(views, rounds_);
+  const auto judge = std::ranges::find(views, "validation_agent", &NodeView::node);
+  if (judge != views.end()) clock_.see(judge->round, now);
+  const std::string game = game_line(views, rounds_) + time_left_of_game(clock_, rounds_, now);
   if (on_terminal()) {
     std::vector<std::string> lines;
     if (!game.empty()) lines.push_back(fitted(game, columns_ - 1));

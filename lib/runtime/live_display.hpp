@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/round_clock.hpp"
+
 namespace nacre::runtime {
 
 /// What is known of a node.
@@ -32,6 +34,10 @@ std::string plain_node_line(const NodeView& view);
 /// the validation agent has reported.
 std::string game_line(const std::vector<NodeView>& views, int rounds);
 
+/// What is left of the round and of the game, behind game_line(): "; about 7 min of the round, about 18 min of the
+/// game". Empty where the rounds so far do not tell.
+std::string time_left_of_game(const RoundClock& clock, int rounds, RoundClock::Clock::time_point now);
+
 /// Shows the game and its nodes on a stream. On a terminal the lines are refreshed in place; elsewhere a line is
 /// printed when it changed and the last one is ten seconds old. Messages go above the lines.
 class LiveDisplay {
@@ -56,6 +62,7 @@ class LiveDisplay {
   std::FILE* out_;
   int columns_;
   int rounds_;
+  RoundClock clock_;
   std::vector<std::string> drawn_;
   std::map<std::string, Printed> printed_;  ///< by node; "" the game
 };

@@ -38,12 +38,17 @@ std::string in_words(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-std::string time_left_in_words(double seconds) {
+std::string about_in_words(double seconds) {
   if (!(seconds >= 0.0) || seconds > 1e9) return "";
   const auto minutes = static_cast<long>(std::ceil(seconds / 60.0));
-  if (minutes <= 1) return "less than a minute left";
-  if (minutes < 90) return fmt::format("about {} min left", minutes);
-  return fmt::format("about {} h left", (minutes + 30) / 60);
+  if (minutes <= 1) return "less than a minute";
+  if (minutes < 90) return fmt::format("about {} min", minutes);
+  return fmt::format("about {} h", (minutes + 30) / 60);
+}
+
+std::string time_left_in_words(double seconds) {
+  const std::string about = about_in_words(seconds);
+  return about.empty() ? "" : about + " left";
 }
 
 std::string fitted(std::string_view text, int columns) {

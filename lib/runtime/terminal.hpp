@@ -20,6 +20,8 @@ void print_line(std::FILE* out, std::string_view line);
 /// "8 s", "2 min 5 s", "3 h 12 min"; empty below 0 (unknown).
 std::string in_words(double seconds);
 
+/// "less than a minute", "about 4 min", "about 3 h"; empty below 0 (unknown).
+std::string about_in_words(double seconds);
 /// "less than a minute left", "about 4 min left", "about 3 h left"; empty below 0 (unknown).
 std::string time_left_in_words(double seconds);
 

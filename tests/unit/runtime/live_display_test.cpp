@@ -128,6 +128,31 @@ TEST(LiveDisplay, LineOfTheGameCountsFromRoundOne) {
             "after the last round, measuring, 0 of 4 orders complete");
 }
 
+TEST(LiveDisplay, WhatIsLeftOfRoundAndGameIsToldByTheLastWholeRound) {
+  const RoundClock::Clock::time_point start{};
+  RoundClock clock;
+  clock.see(0, start);
+  clock.see(1, start + seconds(200));
+  EXPECT_EQ(time_left_of_game(clock, 3, start + seconds(300)), "") << "round 0 is of another kind";
+  clock.see(2, start + seconds(800));
+  EXPECT_EQ(time_left_of_game(clock, 3, start + seconds(920)), "; about 8 min of the round, about 18 min of the game");
+  EXPECT_EQ(time_left_of_game(clock, 3, start + seconds(1500)), "") << "longer than the one before";
+  clock.see(3, start + seconds(1600));
+  EXPECT_EQ(time_left_of_game(clock, 3, start + seconds(1660)), "; about 13 min of the round, about 13 min of the game")
+      << "800 s";
+}
+
+// Whoever resumes a game has not seen its round begin.
+TEST(LiveDisplay, ARoundThatWasJoinedLateTellsNothing) {
+  const RoundClock::Clock::time_point start{};
+  RoundClock clock;
+  clock.see(2, start);
+  clock.see(3, start + seconds(30));
+  EXPECT_EQ(time_left_of_game(clock, 5, start + seconds(40)), "");
+  clock.see(4, start + seconds(630));
+  EXPECT_EQ(time_left_of_game(clock, 5, start + seconds(630)), "; about 10 min of the round, about 20 min of the game");
+}
+
 TEST(LiveDisplay, LineOfTheGameIsThereOnceTheValidationAgentHasReported) {
   NodeView silent;
   silent.node = "validation_agent";
