@@ -59,8 +59,8 @@ std::string in_words(const std::vector<OtherMaterial>& materials) {
   std::string text;
   for (const OtherMaterial& other : materials)
     text += fmt::format(
-        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of it, "
-        "or an error of the machine): layouts are judged against what was measured.",
+        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
+        "it, or an error of the machine): layouts are judged against what was measured.",
         kConstantMaterials[other.material], other.modulus_pa);
   return text;
 }

@@ -69,6 +69,7 @@ const std::map<std::string, std::uint64_t> kFirstDraws = {
     {"sysid/walkers", 16759426285845376275U},
     {"table trends", 4303189804549083874U},
     {"truth/", 229579106783781658U},
+    {"truth/coupons/", 7727934983312255326U},
     {"truth/effect/", 10170139508479994969U},
     {"truth/effects", 5916075799099307628U},
     {"voxels/{}/{}/{}", 60081016352054761U},

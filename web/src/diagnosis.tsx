@@ -36,7 +36,10 @@ function noNextTest(d: Diagnosis): string {
 /** What a status means. */
 const STATUS: Record<string, { text: string; hint: string }> = {
   in_set: { text: "explains it", hint: "With this effect the model agrees with the measurements." },
-  excluded: { text: "no sign of it", hint: "The measurements show no sign of it, or another effect explains them better." },
+  excluded: {
+    text: "no sign of it",
+    hint: "The measurements show no sign of it, or another effect explains them better.",
+  },
   invisible: {
     text: "these tests cannot say",
     hint: "Its signature is too weak to be told from noise. It may be there all the same.",
