@@ -23,7 +23,7 @@ TEST(DoubtsOfCourse, AForceThatIsSetToZeroDuringThePullIsDoubted) {
   EXPECT_THAT(doubts_of_course(stress_pa), ElementsAre(HasSubstr("set to zero during the pull")));
 }
 
-// A specimen that breaks stays at zero; one that cracks keeps a part of its force; one that is unloaded loses it slowly.
+// What breaks stays at zero; what cracks keeps a part of its force; what is unloaded loses it slowly.
 TEST(DoubtsOfCourse, WhatBreaksCracksOrIsUnloadedIsNot) {
   std::vector<double> broken = rise();
   for (int i = 0; i < 50; ++i) broken.push_back(1e4);
