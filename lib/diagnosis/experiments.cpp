@@ -1,7 +1,6 @@
 #include "diagnosis/experiments.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -61,10 +60,9 @@ std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std
 
 std::vector<NextExperiment> specimens_of_materials(const Observations& observations,
                                                    const std::vector<ModulusAtBound>& moduli, int replicates) {
-  constexpr std::array kFractions = {0.0, 1.0, 0.5};  // of kConstantMaterials
   std::vector<NextExperiment> experiments;
   for (const ModulusAtBound& each : moduli) {
-    experiments.push_back({pattern::Mixture{kFractions[each.material]}, TestKind::modulus,
+    experiments.push_back({*pattern::design_from_name(kConstantMaterials[each.material]), TestKind::modulus,
                            usual_conditions(observations, TestKind::modulus), replicates, tester::Loading{},
                            fmt::format("homogeneous {} specimens: layouts want an E of {:.3g} Pa, theirs would tell "
                                        "another material from an effect that the model lacks",

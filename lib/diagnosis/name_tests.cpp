@@ -9,23 +9,16 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
-#include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// A model of one or two effects without one of them: the base, or the single fit of the other.
-FittedModel without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
-  if (model.effects.size() == 1) return evidence.base.fit;
-  return *std::ranges::find_if(
-      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
-}
-
-/// The anchor to which one effect of a model is added.
+/// The anchor to which one effect of a model is added: the base, or the single fit of the other effect.
 Anchor anchor_without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
   if (model.effects.size() == 1) return evidence.base;
   Anchor anchor;
-  anchor.fit = without(evidence, model, effect);
+  anchor.fit = *std::ranges::find_if(
+      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
   std::vector<std::string> others = evidence.effects;
   std::erase(others, anchor.fit.effects.front());
   anchor.signatures = signatures_on(evidence.model, anchor.fit, others);

@@ -19,8 +19,8 @@ struct FoundWord {
   std::size_t begin = 0;  ///< byte of the text
 };
 
-/// Words stand between letters that are no Latin ones. One pass over the text: every word is looked for only where its
-/// first byte stands, since readers ask for hundreds of words in every cell.
+/// A word is found whole, with no Latin letter before or behind it. One pass over the text: every word is looked for
+/// only where its first byte stands, since readers ask for hundreds of words in every cell.
 class WordFinder {
  public:
   explicit WordFinder(std::span<const std::string_view> words);
