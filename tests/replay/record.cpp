@@ -1,6 +1,6 @@
-// Plays the golden games anew and writes them down, or puts new sentences into them as they were played. For deliberate
-// changes of what nodes send; tests/replay/README.md.
-// usage: record_golden_games [--reword] FOLDER [GAME...]
+// Plays the golden games anew and writes them down, or puts new sentences into them as they were played, or writes
+// their transcripts alone. For deliberate changes of what nodes send; tests/replay/README.md. usage:
+// record_golden_games [--reword | --transcribe] FOLDER [GAME...]
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +17,7 @@
 #include "persons_game.hpp"
 #include "program.hpp"
 #include "reword.hpp"
+#include "transcript.hpp"
 
 namespace nacre::golden {
 namespace {
@@ -97,11 +98,19 @@ fs::path persons_game(const fs::path& folder) {
 const std::map<std::string, std::function<fs::path(const fs::path&)>> kGames = {{"laboratory", laboratory_game},
                                                                                 {"person", persons_game}};
 
+/// Writes the transcript of what game.jsonl holds.
+void transcribe(const fs::path& games, const std::string& name) {
+  const fs::path run = fresh_folder("transcribe_" + name);
+  unpack_golden_game(games / name, run);
+  write_transcript(recorded_lines(run), games / name);
+}
+
 void record(const fs::path& games, const std::string& name) {
   const fs::path run = kGames.at(name)(fresh_folder(name));
   // These two send the same sort of messages all the time, and curves are long.
   write_golden_game(run, games / name, {{"simulator_farm", name == "laboratory" ? 30 : 0}, {"virtual_lab", 16}});
   fmt::print("{}: {} bytes\n", name, fs::file_size(games / name / "game.jsonl"));
+  transcribe(games, name);
 }
 
 void reword(const fs::path& games, const std::string& name) {
@@ -112,15 +121,18 @@ void reword(const fs::path& games, const std::string& name) {
 }
 
 int run(std::vector<std::string> arguments) {
-  const bool is_rewording = !arguments.empty() && arguments.front() == "--reword";
-  if (is_rewording) arguments.erase(arguments.begin());
-  if (arguments.empty()) throw InputError("usage: record_golden_games [--reword] FOLDER [GAME...]");
+  using Action = void (*)(const fs::path&, const std::string&);
+  static const std::map<std::string, Action> kActions = {{"--reword", reword}, {"--transcribe", transcribe}};
+  const auto chosen = arguments.empty() ? kActions.end() : kActions.find(arguments.front());
+  const Action action = chosen == kActions.end() ? record : chosen->second;
+  if (chosen != kActions.end()) arguments.erase(arguments.begin());
+  if (arguments.empty()) throw InputError("usage: record_golden_games [--reword | --transcribe] FOLDER [GAME...]");
   const fs::path games = arguments.front();
   std::vector<std::string> names(arguments.begin() + 1, arguments.end());
   if (names.empty()) names = {"laboratory", "person"};
   for (const std::string& name : names) {
     if (!kGames.contains(name)) throw InputError::format("{}: no golden game of this name", name);
-    is_rewording ? reword(games, name) : record(games, name);
+    action(games, name);
   }
   return 0;
 }

@@ -15,6 +15,7 @@
 #include "golden_game.hpp"
 #include "program.hpp"
 #include "reword.hpp"
+#include "transcript.hpp"
 
 namespace nacre {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::Not;
 
 const fs::path kGames = fs::path(NACRE_SOURCE_DIR) / "tests/replay/games";
 
@@ -39,6 +41,16 @@ class GoldenGame : public testing::TestWithParam<const char*> {
   fs::path run_;
 };
 
+TEST_P(GoldenGame, ReadsAsItsTranscript) {
+  golden::unpack_golden_game(game(), run_);
+  const std::vector<std::string> transcript = golden::read_transcript(game());
+  EXPECT_GT(transcript.size(), 100U);
+  EXPECT_EQ(golden::difference(transcript, golden::recorded_lines(run_)), "") << "game.jsonl is another game";
+  EXPECT_EQ(golden::difference(transcript, golden::lines_of_now(run_, fresh_folder("now"))), "")
+      << "If this change is meant, record the games again: tests/replay/README.md.";
+}
+
+/// Exact where the transcript is rounded.
 TEST_P(GoldenGame, IsSentAgainByEveryNode) {
   golden::unpack_golden_game(game(), run_);
   const std::vector<std::string> nodes = golden::nodes_of(run_);
@@ -101,6 +113,24 @@ TEST_P(GoldenGame, WithAnAlteredFieldIsNoticedAndTheFieldNamed) {
     EXPECT_FALSE(report["equal"]) << alteration.line;
     EXPECT_THAT(report["difference"].get<std::string>(), HasSubstr(alteration.where));
   }
+}
+
+TEST_P(GoldenGame, WithAnAlteredFieldShowsTheLineInItsTranscript) {
+  const fs::path copy = fresh_folder("altered");
+  fs::copy(game(), copy, fs::copy_options::recursive);
+  alter(copy / "game.jsonl", R"("on":"ROUND")", "signed_gap");
+  golden::unpack_golden_game(copy, run_);
+  const std::string shown =
+      golden::difference(golden::recorded_lines(run_), golden::lines_of_now(run_, fresh_folder("now")));
+  EXPECT_THAT(shown, HasSubstr("\n- validation_agent says ROUND "));
+  EXPECT_THAT(shown, HasSubstr("\n+ validation_agent says ROUND "));
+  EXPECT_THAT(shown, Not(HasSubstr(" hears "))) << "what others hear is recorded";
+}
+
+TEST(Transcript, SaysWhatWasAndWhatIsBehindTheLineBefore) {
+  EXPECT_EQ(golden::difference({"a", "b", "c"}, {"a", "b", "c"}), "");
+  EXPECT_EQ(golden::difference({"a", "b", "c"}, {"a", "x", "c", "d"}), "  a\n- b\n+ x\n  c\n+ d\n");
+  EXPECT_EQ(golden::difference({"a", "b"}, {}, 1), "  the beginning\n- a\nand 1 lines more\n");
 }
 
 TEST_P(GoldenGame, WrittenDownAgainIsTheSameText) {

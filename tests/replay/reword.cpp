@@ -10,24 +10,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analyser/analyser_core.hpp"
-#include "analyser/works.hpp"
 #include "base/expected.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "golden_game.hpp"
-#include "proposal_agent/proposal_core.hpp"
-#include "proposal_agent/selection_work.hpp"
+#include "golden_nodes.hpp"
 #include "runtime/content_difference.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/log_file.hpp"
-#include "runtime/node_main.hpp"
-#include "simulator_farm/farm_core.hpp"
-#include "simulator_farm/simulate_work.hpp"
-#include "store/simulation_cache.hpp"
-#include "validation_agent/family_work.hpp"
-#include "validation_agent/validation_core.hpp"
-#include "virtual_lab/virtual_lab_core.hpp"
+#include "transcript.hpp"
 #include "wire/channels.hpp"
 #include "wire/from_json.hpp"
 #include "wire/header.hpp"
@@ -103,23 +94,6 @@ Result<void> expect_same_but_sentences(const std::string& recorded, const std::s
       return fail("field {}: {}", i, same.error().message);
   }
   return {};
-}
-
-/// The node as its program makes it; its work writes below `scratch`.
-runtime::NodeProgram make_node(const std::string& node, const game::Scenario& scenario, const fs::path& scratch) {
-  fs::create_directories(scratch);
-  if (node == "validation_agent")
-    return {.core = validation_agent::make_core(scenario), .work = validation_agent::work_functions(scratch)};
-  if (node == "proposal_agent")
-    return {.core = proposal_agent::make_core(scenario), .work = proposal_agent::work_functions()};
-  if (node == "analyser") return {.core = analyser::make_core(scenario), .work = analyser::work_functions(scratch)};
-  if (node == "simulator_farm") {
-    const auto cache = std::make_shared<store::SimulationCache>(":memory:");
-    return {.core = simulator_farm::make_core(scenario),
-            .work = simulator_farm::work_functions(cache, scratch / "films")};
-  }
-  return {.core = virtual_lab::make_core(scenario),
-          .work = virtual_lab::work_functions(virtual_lab::truth_of(scenario))};
 }
 
 /// New contents of messages that were reworded, by channel and content of before.
@@ -280,6 +254,7 @@ Rewording reword_golden_game(const fs::path& folder, const fs::path& scratch) {
     }
     if (reworded != before) continue;
     write_golden_game(anew, folder);
+    write_transcript(recorded_lines(anew), folder);
     return rewording;
   }
 }
