@@ -13,7 +13,8 @@ PlayedGame read_game(const std::filesystem::path& run) {
   const auto take_chunk = [&](const std::string& payload) {
     const auto chunk = wire::read<wire::GamutChunk>(payload);
     if (!chunk) return;
-    if (auto gamut = chunks.add(*chunk)) game.gamuts.emplace(chunk->round, *std::move(gamut));
+    chunks.add(*chunk);
+    if (const auto* gamut = chunks.whole(chunk->round)) game.gamuts.emplace(chunk->round, *gamut);
   };
   const auto take_proposal = [&](const std::string& payload) {
     if (const auto proposal = wire::read<wire::Proposal>(payload)) game.proposals.emplace(proposal->round, *proposal);

@@ -109,7 +109,10 @@ ModelPredictions predictions_in(const FarmTraffic& traffic, const std::map<int, 
 /// The analyser's own requests: what each round's model predicts for everything measured by then, and for its
 /// proposals.
 void add_recorded(const run::RunRecord& run, ModelPredictions& predictions) {
+  std::map<std::string, const wire::SimulatedDesign*> by_model;
   for (const auto& [number, round] : run.rounds) {
+    if (!round.repeats_model) by_model.clear();
+    for (const auto& [design, simulation] : round.simulated) by_model[design] = &simulation;
     const material::Extensions extensions = extensions_of(round);
     const auto add = [&, &known = predictions[number]](const std::string& design,
                                                        const optimize::Performance& simulated,
@@ -119,8 +122,9 @@ void add_recorded(const run::RunRecord& run, ModelPredictions& predictions) {
       if (!values.modulus_pa) values.modulus_pa = recorded.modulus_pa;
       if (!values.toughness_pa) values.toughness_pa = recorded.toughness_pa;
     };
-    for (const auto& [design, simulation] : round.simulated)
-      if (simulation.failure.empty()) add(design, {simulation.modulus_pa, simulation.toughness_pa}, simulation.curve);
+    for (const auto& [design, simulation] : by_model)
+      if (simulation->failure.empty())
+        add(design, {simulation->modulus_pa, simulation->toughness_pa}, simulation->curve);
     for (const wire::ProposedDesign& proposal : round.proposals) add(proposal.design.name(), predicted(proposal), {});
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -93,7 +92,8 @@ void draw_measured(Plot& plot, std::span<const MeasuredPattern> measured, int ro
 
 std::string gamut_figure(const run::RunRecord& run, int number, const Range& x, const Range& y) {
   const run::RoundRecord& round = run.rounds.at(number);
-  Plot plot({.title = fmt::format("Round {}", number),
+  const bool lacks_messages = round.gamut_count > 0 && !round.is_gamut_whole;
+  Plot plot({.title = fmt::format("Round {}{}", number, lacks_messages ? ": the gamut is incomplete" : ""),
              .x_label = "Young's modulus E (GPa)",
              .y_label = "toughness T (MPa)",
              .x = x,
@@ -203,6 +203,26 @@ DesignCurves& curves_of(std::vector<DesignCurves>& all, const std::string& desig
   return all.back();
 }
 
+struct LatestSimulation {
+  int round = 0;  ///< the last with a model that simulates so
+  const wire::SimulatedDesign* simulation = nullptr;
+};
+
+/// By design, of the newest model that simulated it.
+std::map<std::string, LatestSimulation> latest_simulations(const run::RunRecord& run) {
+  std::map<std::string, LatestSimulation> latest;
+  int first_of_model = 0, newest = 0;
+  for (const auto& [number, round] : run.rounds) {
+    if (!round.model) continue;
+    if (!round.repeats_model) first_of_model = number;
+    newest = number;
+    for (const auto& [design, simulation] : round.simulated) latest[design] = {number, &simulation};
+  }
+  for (auto& [design, each] : latest)
+    if (each.round >= first_of_model) each.round = newest;
+  return latest;
+}
+
 /// Notched specimens tested under standard conditions; the simulated curve as the testing machine would record it.
 std::vector<DesignCurves> collect_curves(const run::RunRecord& run) {
   std::vector<DesignCurves> all;
@@ -214,14 +234,11 @@ std::vector<DesignCurves> collect_curves(const run::RunRecord& run) {
     (r.valid ? known.valid : known.invalid).push_back(r.curve);
     known.measured_in = std::max(known.measured_in, m.measured_in);
   }
-  for (const auto& [number, round] : run.rounds) {
-    const material::Extensions extensions = extensions_of(round);
-    for (const auto& [design, simulation] : round.simulated) {
-      if (simulation.curve.empty()) continue;
-      DesignCurves& known = curves_of(all, design);
-      known.model = number;
-      known.simulated = measurement::observe_curve(simulation.curve, extensions);
-    }
+  for (const auto& [design, latest] : latest_simulations(run)) {
+    if (latest.simulation->curve.empty()) continue;
+    DesignCurves& known = curves_of(all, design);
+    known.model = latest.round;
+    known.simulated = measurement::observe_curve(latest.simulation->curve, extensions_of(run.rounds.at(latest.round)));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const DesignCurves& a, const DesignCurves& b) { return a.measured_in > b.measured_in; });
@@ -259,11 +276,22 @@ std::string curve_figure(const DesignCurves& curves, const Range& x, const Range
 
 }  // namespace
 
+std::set<int> shown_rounds(const run::RunRecord& run) {
+  constexpr std::size_t kMost = 12;
+  std::vector<int> numbers;
+  for (const auto& [number, round] : run.rounds) numbers.push_back(number);
+  if (numbers.size() <= kMost) return {numbers.begin(), numbers.end()};
+  std::set<int> shown;
+  for (std::size_t i = 0; i < kMost; ++i) shown.insert(numbers[i * (numbers.size() - 1) / (kMost - 1)]);
+  return shown;
+}
+
 std::vector<std::string> gamut_figures(const run::RunRecord& run) {
   const std::vector<PlotPoint> points = all_points(run, measured_patterns(run, newest_round(run).value_or(0)));
   const Range x = range_of(points, &PlotPoint::x), y = range_of(points, &PlotPoint::y);
   std::vector<std::string> figures;
-  for (const auto& [number, round] : run.rounds) {
+  for (const int number : shown_rounds(run)) {
+    const run::RoundRecord& round = run.rounds.at(number);
     const bool has_content =
         !gamut_of(round).patterns.empty() || !round.proposals.empty() || !measured_patterns(run, number).empty();
     if (has_content) figures.push_back(gamut_figure(run, number, x, y));

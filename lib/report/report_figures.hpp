@@ -2,6 +2,7 @@
 // The figures of the report of a game as inline SVG; its pieces serve other exhibits, too.
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,8 +13,11 @@
 
 namespace nacre::report {
 
-/// One plot per round, E against T on common axes: gamut, its front, measured patterns with their front, homogeneous
-/// line, proposals.
+/// Rounds whose gamuts are drawn: of many the first, the newest and those evenly between.
+std::set<int> shown_rounds(const run::RunRecord& run);
+
+/// One plot per shown round, E against T on common axes: gamut, its front, measured patterns with their front,
+/// homogeneous line, proposals.
 std::vector<std::string> gamut_figures(const run::RunRecord& run);
 
 /// Hypervolumes, gap and signed gap over the rounds; empty before the first closed round.

@@ -4,6 +4,7 @@
 #include "run/run_schema.hpp"
 #include "runtime/journal.hpp"
 #include "store/database_care.hpp"
+#include "wire/channels.hpp"
 
 namespace nacre::run {
 
@@ -22,8 +23,10 @@ Rebuilt keep_journal(runtime::LogReader& reader, RunDatabase& database) {
     if (!compute || compute->size() != 3 || (*compute)[1] != "store") continue;
     const auto message = runtime::unpack((*compute)[2]);
     if (!message || message->size() != 2) continue;
-    database.keep((*message)[0], (*message)[1]);
-    ++rebuilt.messages;
+    const wire::Channel* channel = wire::find_channel((*message)[0]);
+    const bool can_be_read = channel != nullptr && channel->validate((*message)[1]).has_value();
+    if (can_be_read) database.keep((*message)[0], (*message)[1]);
+    ++(can_be_read ? rebuilt.messages : rebuilt.unread);
   }
   rebuilt.torn_bytes = reader.end().torn_bytes;
   return rebuilt;

@@ -14,6 +14,7 @@ namespace nacre::run {
 /// What a database was made anew from.
 struct Rebuilt {
   std::int64_t messages = 0;
+  std::int64_t unread = 0;      ///< further ones, of another version of nacre
   std::int64_t torn_bytes = 0;  ///< of a record that was being written when the analyser ended
 };
 

@@ -1,8 +1,10 @@
 #include "run/recording.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/names.hpp"
+#include "game/model.hpp"
 #include "measurement/specimen_checks.hpp"
 
 namespace nacre::run {
@@ -41,17 +43,25 @@ void Recording::take(std::int64_t id, std::string_view channel, const std::strin
   } else if (channel == "PROPOSAL") {
     read_as<wire::Proposal>(payload, [&](wire::Proposal p) { rounds_[p.round].proposals = std::move(p.designs); });
   } else if (channel == "GAMUT") {
-    read_as<wire::GamutChunk>(payload, [&](const wire::GamutChunk& g) {
-      rounds_.try_emplace(g.round);
-      gamuts_[g.round][g.chunk] = {id, static_cast<int>(g.samples.size())};
-    });
+    read_as<wire::GamutChunk>(payload, [&](const wire::GamutChunk& gamut) { take(id, gamut); });
   } else if (channel == "FAMILY_GAMUT") {
     read_as<wire::FamilyGamut>(payload, [&](const wire::FamilyGamut& g) {
-      variants_[g.number][g.chunk] = {id, static_cast<int>(g.samples.size())};
+      if (variants_[g.number].ids.emplace(g.chunk, id).second)
+        variants_[g.number].count += static_cast<int>(g.samples.size());
     });
   } else if (channel == "DIAGNOSIS") {
     read_as<wire::Diagnosis>(payload, [&](wire::Diagnosis d) { rounds_[d.round].diagnosis = std::move(d); });
   }
+}
+
+void Recording::take(std::int64_t id, const wire::GamutChunk& gamut) {
+  rounds_.try_emplace(gamut.round);
+  Chunks& known = gamuts_[gamut.round];
+  if (!known.ids.emplace(gamut.chunk, id).second) return;
+  known.base = gamut.base;
+  known.total = gamut.total;
+  known.chunks = gamut.chunks;
+  known.count += static_cast<int>(gamut.samples.size());
 }
 
 /// A game with a family stage closes its last round twice: the second ROUND counts, whatever comes after it.
@@ -106,11 +116,19 @@ RunRecord Recording::record() const {
   RunRecord record;
   record.rounds = rounds_;
   record.revealed = revealed_;
-  for (auto& [number, round] : record.rounds) round.gamut_count = count_of(gamuts_, number);
+  const RoundRecord* before = nullptr;
+  for (auto& [number, round] : record.rounds) {
+    describe_gamut(number, round);
+    round.repeats_model =
+        before != nullptr && before->model && round.model &&
+        game::material_side(before->model->parameters) == game::material_side(round.model->parameters);
+    before = &round;
+  }
   for (const auto& [number, family] : families_) {
     if (family.stated.name.empty()) continue;  // its cracks come before its FAMILY
     record.families.push_back(family);
-    record.families.back().gamut_count = count_of(variants_, number);
+    if (const auto variants = variants_.find(number); variants != variants_.end())
+      record.families.back().gamut_count = variants->second.count;
   }
   for (const auto& [name, specimen] : specimens_) {
     const auto review = reviews_.find(name);
@@ -119,18 +137,40 @@ RunRecord Recording::record() const {
   return record;
 }
 
-std::vector<std::int64_t> Recording::ids_of(const Chunks& chunks, int number) {
+/// The gamut's own messages and those of its bases, as far as they have come.
+void Recording::describe_gamut(int number, RoundRecord& round) const {
+  const auto own = gamuts_.find(number);
+  if (own == gamuts_.end()) return;
+  int count = 0;
+  round.is_gamut_whole = true;
+  for (int base = number; base >= 0;) {
+    const auto chunks = gamuts_.find(base);
+    const bool is_there = chunks != gamuts_.end();
+    round.is_gamut_whole =
+        round.is_gamut_whole && is_there && std::cmp_equal(chunks->second.ids.size(), chunks->second.chunks);
+    if (!is_there) break;
+    count += chunks->second.count;
+    base = chunks->second.base;
+  }
+  // Changed samples are no further ones.
+  round.gamut_count = own->second.base < 0 ? count : std::min(count, own->second.total);
+}
+
+std::vector<std::int64_t> Recording::gamut_messages(int round) const {
+  std::vector<const Chunks*> chain;
+  for (auto chunks = gamuts_.find(round); chunks != gamuts_.end(); chunks = gamuts_.find(chunks->second.base))
+    chain.push_back(&chunks->second);
   std::vector<std::int64_t> ids;
-  if (const auto found = chunks.find(number); found != chunks.end())
-    for (const auto& [place, chunk] : found->second) ids.push_back(chunk.id);
+  for (auto chunks = chain.rbegin(); chunks != chain.rend(); ++chunks)
+    for (const auto& [place, id] : (*chunks)->ids) ids.push_back(id);
   return ids;
 }
 
-int Recording::count_of(const Chunks& chunks, int number) {
-  int count = 0;
-  if (const auto found = chunks.find(number); found != chunks.end())
-    for (const auto& [place, chunk] : found->second) count += chunk.count;
-  return count;
+std::vector<std::int64_t> Recording::variant_messages(int family) const {
+  std::vector<std::int64_t> ids;
+  if (const auto chunks = variants_.find(family); chunks != variants_.end())
+    for (const auto& [place, id] : chunks->second.ids) ids.push_back(id);
+  return ids;
 }
 
 }  // namespace nacre::run

@@ -19,16 +19,20 @@ class Recording {
   void take(std::int64_t id, std::string_view channel, const std::string& payload);
   /// Without gamuts.
   RunRecord record() const;
-  /// Messages that hold the gamut of a round, or the variants of a family by number, by chunk.
-  std::vector<std::int64_t> gamut_messages(int round) const { return ids_of(gamuts_, round); }
-  std::vector<std::int64_t> variant_messages(int family) const { return ids_of(variants_, family); }
+  /// Messages that hold the gamut of a round, those of its bases first: of one pattern the later sample counts.
+  std::vector<std::int64_t> gamut_messages(int round) const;
+  /// Messages that hold the variants of a family by number, by chunk.
+  std::vector<std::int64_t> variant_messages(int family) const;
 
  private:
-  struct Chunk {
-    std::int64_t id = 0;
-    int count = 0;
+  /// What has come of a gamut.
+  struct Chunks {
+    int base = -1;
+    int count = 0;                    ///< samples
+    int total = 0;                    ///< of the whole gamut
+    int chunks = 1;                   ///< expected
+    std::map<int, std::int64_t> ids;  ///< by chunk
   };
-  using Chunks = std::map<int, std::map<int, Chunk>>;  ///< by round or family, by chunk
 
   void take(const wire::RoundSummary& summary);
   void take(const wire::Measurement& measured);
@@ -36,14 +40,14 @@ class Recording {
   void take(const wire::Fracture& fracture);
   void take(const wire::CalibratedFamily& family);
   void take_review(const std::string& payload);
-  static std::vector<std::int64_t> ids_of(const Chunks& chunks, int number);
-  static int count_of(const Chunks& chunks, int number);
+  void take(std::int64_t id, const wire::GamutChunk& gamut);
+  void describe_gamut(int number, RoundRecord& round) const;
 
   std::map<int, RoundRecord> rounds_;
   std::map<int, FamilyRecord> families_;
   std::map<std::string, MeasuredSpecimen> specimens_;
   std::map<std::string, wire::Review> reviews_;  ///< that count, by specimen
-  Chunks gamuts_, variants_;
+  std::map<int, Chunks> gamuts_, variants_;      ///< by round, by family
   ClosedRounds closed_;
   std::optional<wire::Reveal> revealed_;
 };

@@ -186,9 +186,10 @@ std::shared_ptr<const Gamut> Run::variants(int family) {
   return kept_gamut<wire::FamilyGamut>(variants_, family, recording_.variant_messages(family));
 }
 
-RunRecord Run::record_with_gamuts() {
+RunRecord Run::record_with_gamuts(const std::optional<std::set<int>>& rounds) {
   RunRecord record = *this->record();
-  for (auto& [number, round] : record.rounds) round.gamut = gamut(number);
+  for (auto& [number, round] : record.rounds)
+    if (!rounds || rounds->contains(number)) round.gamut = gamut(number);
   for (FamilyRecord& family : record.families) family.gamut = variants(family.stated.number);
   return record;
 }

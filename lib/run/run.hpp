@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,8 @@ class Run {
   std::string version();
   /// Without gamuts; empty before the analyser's first write.
   std::shared_ptr<const RunRecord> record();
-  /// With the gamuts of rounds and families, which are most of a large run.
-  RunRecord record_with_gamuts();
+  /// With the gamuts of families and rounds (`rounds`: of these alone), which are most of a large run.
+  RunRecord record_with_gamuts(const std::optional<std::set<int>>& rounds = std::nullopt);
   /// By round; no pattern where the round has none. 100,000 patterns take about 20 ms once, and are kept.
   std::shared_ptr<const Gamut> gamut(int round);
   /// The variants of a family by its number.

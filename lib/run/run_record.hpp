@@ -25,9 +25,11 @@ struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
   std::optional<wire::AdoptedModel> model;
   int gamut_count = 0;                 ///< samples received
+  bool is_gamut_whole = false;         ///< with all chunks of it and its bases
   std::shared_ptr<const Gamut> gamut;  ///< where it was asked for (Run::record_with_gamuts), else nullptr
   std::vector<wire::ProposedDesign> proposals;
   std::optional<wire::Diagnosis> diagnosis;
+  bool repeats_model = false;  ///< simulates as that of the round before: what `simulated` has there holds here, too
   std::map<std::string, wire::SimulatedDesign> simulated;  ///< measured designs by this round's model, by design
   std::map<std::string, wire::Fracture> cracks;            ///< of the proposals, by design
 };

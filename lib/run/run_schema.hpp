@@ -4,7 +4,7 @@
 
 namespace nacre::run {
 
-inline constexpr int kRunSchemaVersion = 4;
+inline constexpr int kRunSchemaVersion = 5;
 
 /// `messages` holds what the analyser was sent and what it found, in that order. `payload`: the LCM encoding with blank
 /// header, `hash` its identity, `content` the same as JSON by the .lcm file, without the header and without columns of
@@ -83,13 +83,23 @@ inline constexpr const char* kDesignsView = R"sql(
             LEFT JOIN measured ON measured.design = name.design;
 )sql";
 
-/// `family`: whose variants they are; NULL: the gamut of the round.
+/// `family`: whose variants they are; NULL: the gamut of the round, put together from its bases: of one pattern the
+/// sample of the latest counts (SQLite takes it from the row of the max).
 inline constexpr const char* kGamutView = R"sql(
   CREATE VIEW gamut AS
-  SELECT m.round, (SELECT f.content->>'name' FROM messages f WHERE m.channel = 'FAMILY_GAMUT' AND f.channel = 'FAMILY'
-                   AND f.content->>'number' = m.content->>'number' LIMIT 1) AS family,
-         printf('%014x', s.pattern) AS pattern, s.modulus_pa, s.toughness_pa
-  FROM messages m JOIN samples s ON s.message = m.id;
+  WITH RECURSIVE own AS (SELECT id, round, content->>'base' AS base FROM messages WHERE channel = 'GAMUT'),
+       part (round, source, base) AS (SELECT round, round, base FROM own
+                                      UNION SELECT part.round, own.round, own.base
+                                            FROM part JOIN own ON own.round = part.base)
+  SELECT round, NULL AS family, printf('%014x', pattern) AS pattern, modulus_pa, toughness_pa
+  FROM (SELECT part.round, s.pattern, s.modulus_pa, s.toughness_pa, max(part.source)
+        FROM part JOIN own ON own.round = part.source JOIN samples s ON s.message = own.id
+        GROUP BY part.round, s.pattern)
+  UNION ALL
+  SELECT m.round, (SELECT f.content->>'name' FROM messages f WHERE f.channel = 'FAMILY'
+                   AND f.content->>'number' = m.content->>'number' LIMIT 1),
+         printf('%014x', s.pattern), s.modulus_pa, s.toughness_pa
+  FROM messages m JOIN samples s ON s.message = m.id WHERE m.channel = 'FAMILY_GAMUT';
 )sql";
 
 /// Pareto fronts of a round, stiffest first: `simulated`, and `measured` up to then (patterns alone).

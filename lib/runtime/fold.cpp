@@ -86,17 +86,15 @@ Result<void> Fold::output(const LogRecord& record) {
 Result<void> Fold::compute(const LogRecord& record) {
   const auto fields = fields_of(record, 3);
   if (!fields) return tl::unexpected(fields.error());
-  const Compute recorded{fields->at(0), fields->at(1), fields->at(2)};
-  if (expected_computes_.empty())
-    return fail("{}: the core no longer asks for the work {}", place(record), recorded.id);
+  const std::string &id = fields->at(0), &kind = fields->at(1), &spec = fields->at(2);
+  if (expected_computes_.empty()) return fail("{}: the core no longer asks for the work {}", place(record), id);
   const Compute now = std::move(expected_computes_.front());
   expected_computes_.pop_front();
-  if (!(now == recorded)) {
-    return fail("{}: recorded the work {} ({}), now {} ({}){}", place(record), recorded.id, recorded.kind, now.id,
-                now.kind,
-                now.id == recorded.id && now.kind == recorded.kind
-                    ? ", whose spec differs: " + content_difference(recorded.spec, now.spec)
-                    : "");
+  const std::string spec_now = journaled_spec(now);
+  const bool is_same_work = now.id == id && now.kind == kind;
+  if (!is_same_work || spec_now != spec) {
+    return fail("{}: recorded the work {} ({}), now {} ({}){}", place(record), id, kind, now.id, now.kind,
+                is_same_work ? ", whose spec differs: " + content_difference(spec, spec_now) : "");
   }
   ++computes;
   asked_index_[now.id] = asked_.size();

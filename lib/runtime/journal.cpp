@@ -93,6 +93,10 @@ Result<std::vector<std::string>> unpack(std::string_view record) {
   return fields;
 }
 
+std::string journaled_spec(const Compute& compute) {
+  return compute.by_hash ? content_hash(compute.spec) : compute.spec;
+}
+
 std::string boot_of_machine() {
   std::string boot;
   std::ifstream file("/proc/sys/kernel/random/boot_id");

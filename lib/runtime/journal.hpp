@@ -12,6 +12,7 @@
 #include "base/result.hpp"
 #include "runtime/folder_lock.hpp"
 #include "runtime/log_file.hpp"
+#include "runtime/node_core.hpp"
 
 namespace nacre::runtime {
 
@@ -22,13 +23,16 @@ inline constexpr std::string_view kTickChannel = "~tick";  ///< input: utime
 inline constexpr std::string_view kWorkChannel = "~work";  ///< input: id, result
 inline constexpr std::string_view kOutPrefix =
     "~out/";  ///< output message, channel appended: payload with blank header
-inline constexpr std::string_view kComputeChannel = "~compute";  ///< output: id, kind, spec
+inline constexpr std::string_view kComputeChannel = "~compute";  ///< output: id, kind, journaled_spec()
 inline constexpr std::string_view kAckedChannel = "~acked";      ///< hash, node, identity of that node's journal
 
 /// Fields of a record in one string, closed by a checksum.
 std::string pack(const std::vector<std::string>& fields);
 /// The fields again; the error says that the record is damaged.
 Result<std::vector<std::string>> unpack(std::string_view record);
+
+/// The spec, or its hash (Compute::by_hash).
+std::string journaled_spec(const Compute& compute);
 
 /// Name that the machine's kernel gives itself at each start; empty where it has none.
 std::string boot_of_machine();

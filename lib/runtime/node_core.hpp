@@ -38,6 +38,8 @@ struct Compute {
   std::string id;
   std::string kind;
   std::string spec;
+  /// Of a spec that is long and that nobody else reads: the journal holds its hash, the core makes it again.
+  bool by_hash = false;
   bool operator==(const Compute&) const = default;
 };
 

@@ -283,7 +283,7 @@ class NodeShell {
       if (!executor_->knows(compute.kind)) {
         throw NodeFailure(fmt::format("the core asks for work of the unknown kind {} ({})", compute.kind, compute.id));
       }
-      write_down(kComputeChannel, pack({compute.id, compute.kind, compute.spec}));
+      write_down(kComputeChannel, pack({compute.id, compute.kind, journaled_spec(compute)}));
       executor_->start(std::move(compute));
     }
   }

@@ -75,10 +75,12 @@ void chunk_fields(auto& field, auto& m) {
   field.columns(m.samples, kSampleColumns);
 }
 
-/// GAMUT: one chunk of a gamut.
+/// GAMUT: one chunk of a gamut, or of what it has more than that of an earlier round and otherwise.
 struct GamutChunk {
   using Wire = gamut_t;
   int round = 0;
+  int base = -1;  ///< round whose gamut this one adds to, explore::with_changes(); -1: none
+  int total = 0;  ///< samples of the whole gamut
   tester::Fidelity fidelity = tester::Fidelity::full;
   int chunk = 0;
   int chunks = 1;
@@ -87,9 +89,11 @@ struct GamutChunk {
 
   static void fields(auto& field, auto& m) {
     field("round", m.round, kRoundNumber);
+    field("base", m.base, Range{-1, kRoundNumber.most});
+    field("total", m.total, kCounted);
     chunk_fields(field, m);
   }
-  std::string contradiction() const { return index_fault("chunk", chunk, chunks); }
+  std::string contradiction() const;
 };
 
 struct ProposedDesign {
@@ -287,18 +291,26 @@ struct FamilyGamut {
 /// Cuts a gamut into chunks of at most kGamutChunk samples; an empty gamut is one empty chunk.
 std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity, std::span<const explore::Evaluated> samples);
 
+/// The gamut as changes of that of an earlier round, where it is that with changes; else whole.
+std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity, std::span<const explore::Evaluated> samples,
+                                     int base, std::span<const explore::Evaluated> base_samples);
+
 /// Cuts the variants of a family into chunks as gamut_chunks() does.
 std::vector<FamilyGamut> family_gamut_chunks(int number, tester::Fidelity fidelity,
                                              std::span<const explore::Evaluated> samples);
 
-/// Joins the chunks of gamuts, in any order and any number of times.
+/// Joins the chunks of gamuts and their bases, in any order and any number of times.
 class GamutCollector {
  public:
-  /// The whole gamut of the chunk's round when this chunk completes it (once), nothing otherwise.
-  std::optional<std::vector<explore::Evaluated>> add(GamutChunk part);
+  void add(GamutChunk part);
+  /// The gamut of a round; nullptr until all of it and of its bases has come.
+  const std::vector<explore::Evaluated>* whole(int round);
+  /// Earlier rounds are not asked for any more. That of `round` stays: the next one may add to it.
+  void forget_before(int round);
 
  private:
-  std::map<int, std::map<int, GamutChunk>> parts_;
+  std::map<int, std::map<int, GamutChunk>> parts_;  ///< by round and chunk, until it is whole
+  std::map<int, std::vector<explore::Evaluated>> whole_;
 };
 
 }  // namespace nacre::wire

@@ -161,17 +161,21 @@ void AnalyserCore::accept_measurement(const std::string& payload) {
   diagnose_when_complete();
 }
 
-/// What was measured up to a closed round is simulated with the model of that round, whichever of the three comes last:
-/// what is simulated must not depend on the order of arrival.
+/// What was measured up to a closed round is simulated with the model of that round, once per model, whichever of them
+/// comes last: what is simulated must not depend on the order of arrival.
 void AnalyserCore::request_measured_designs() {
   for (const int round : closed_) {
-    const auto model = models_.find(round);
-    if (model == models_.end()) continue;  // still on its way
+    const auto model = models_.find(round), before = models_.find(round - 1);
+    if (model == models_.end() || (round > 0 && before == models_.end())) continue;  // still on its way
+    const bool repeats =
+        round > 0 && game::material_side(before->second.parameters) == game::material_side(model->second.parameters);
     std::set<std::string>& asked = asked_designs_[round];
     const std::size_t asked_before = asked.size();
     std::vector<pattern::Design> designs;
-    for (const auto& [name, measured] : measured_designs_)
-      if (measured.round <= round && asked.insert(name).second) designs.push_back(measured.design);
+    for (const auto& [name, measured] : measured_designs_) {
+      const bool is_asked_before = repeats && measured.round < round;
+      if (measured.round <= round && !is_asked_before && asked.insert(name).second) designs.push_back(measured.design);
+    }
     for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
       const std::size_t end = std::min(designs.size(), first + wire::kMaximumDesigns);
       wire::SimulateRequest request;
@@ -249,7 +253,8 @@ void AnalyserCore::close_when_complete(const std::string& request_id) {
 }
 
 void AnalyserCore::report_when_ready() {
-  const bool all_asked = std::ranges::all_of(closed_, [&](int round) { return models_.contains(round); });
+  const bool all_asked = std::ranges::all_of(
+      closed_, [&](int round) { return models_.contains(round) && (round == 0 || models_.contains(round - 1)); });
   const bool all_known = storing_.empty() && all_asked && open_responses_.empty();
   if (!report_due_ || reporting_ || !all_known) return;
   outputs_.computes.push_back({.id = fmt::format("report/r{}/{}", *report_due_, ++reports_),

@@ -67,7 +67,7 @@ class AnalyserCore : public runtime::NodeCore {
     int round = 0;
   };
   std::map<std::string, MeasuredDesign> measured_designs_;  // by name
-  std::map<int, std::set<std::string>> asked_designs_;      // of the model of a round
+  std::map<int, std::set<std::string>> asked_designs_;      // of the model of a round, beside those of the one before
   std::set<int> proposed_;                                  // rounds
   std::map<int, std::vector<pattern::Design>> unfilmed_;    // proposals whose films have not been asked for, by round
   std::set<int> filmed_families_;                           // by number

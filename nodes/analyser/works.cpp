@@ -31,10 +31,9 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
        }},
       {"diagnose", diagnose_work},
       {"report",
-       [database, run_dir](const std::string& round) -> std::string {
+       [database, read = std::make_shared<run::Run>(run_dir), run_dir](const std::string& round) -> std::string {
          database->checkpoint();
-         write_file_atomically(run_dir / "report.html", report::render_report(run::Run(run_dir).record_with_gamuts(),
-                                                                              run_dir.filename().string()));
+         write_file_atomically(run_dir / "report.html", report::render_report(*read, run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);
        }},
   };

@@ -61,8 +61,16 @@ int rebuild(const RebuildOptions& options) {
   if (rebuilt.torn_bytes > 0)
     warn(fmt::format("the analyser's journal ends in a torn record of {} bytes: what it said is not in {}",
                      rebuilt.torn_bytes, database));
+  if (rebuilt.unread > 0)
+    warn(
+        fmt::format("{} of another version of nacre cannot be read and are not in {}: to have them, play the scenario "
+                    "again, or use that version (manifest.json)",
+                    counted(rebuilt.unread, "message"), database));
   if (options.json) {
-    print_json({{"database", database}, {"messages", rebuilt.messages}, {"torn_bytes", rebuilt.torn_bytes}});
+    print_json({{"database", database},
+                {"messages", rebuilt.messages},
+                {"unread", rebuilt.unread},
+                {"torn_bytes", rebuilt.torn_bytes}});
   } else {
     fmt::print("{}: made anew from {} of the analyser's journal\n", database,
                counted(static_cast<std::int64_t>(rebuilt.messages), "message"));

@@ -33,8 +33,10 @@ int report(const Options& options) {
     remark(fmt::format("{}: nothing to report yet; the first report follows round 0", run.folder.string()));
     return 1;
   }
-  if (options.render)
-    write_file_atomically(page, report::render_report(run::Run(run.folder).record_with_gamuts(), run.manifest.run_id));
+  if (options.render) {
+    run::Run read(run.folder);
+    write_file_atomically(page, report::render_report(read, run.manifest.run_id));
+  }
   const std::filesystem::path thesis = shipped_folder() / "data" / "thesis";
   if (!std::filesystem::exists(thesis))
     remark("data/thesis was not found, neither beside the program nor here: the thesis' figures are left out");

@@ -103,8 +103,10 @@ wire::SimulateRequest ProposalCore::request_to_farm() const {
 
 void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
   if (const auto batch_request = branch.batch_request()) {
-    outputs.computes.push_back(
-        {.id = branch.batch_id(), .kind = "search", .spec = search_spec(*batch_request, round_->model)});
+    outputs.computes.push_back({.id = branch.batch_id(),
+                                .kind = "search",
+                                .spec = search_spec(*batch_request, round_->model),
+                                .by_hash = true});
   } else {
     send(branch.next(request_to_farm()), outputs);
   }
@@ -167,14 +169,15 @@ void ProposalCore::request_realisations(runtime::Outputs& outputs) {
 
 void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
   round_->selecting = true;
-  const std::vector<wire::GamutChunk> chunks =
-      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->realisations->gamut());
-  for (const wire::GamutChunk& chunk : chunks) outputs.messages.push_back({"GAMUT", wire::write(chunk)});
+  const std::vector<explore::Evaluated>& gamut = round_->realisations->gamut();
+  for (const wire::GamutChunk& chunk :
+       wire::gamut_chunks(round_->model.round, scenario_.fidelity, gamut, last_round_, last_gamut_))
+    outputs.messages.push_back({"GAMUT", wire::write(chunk)});
   outputs.computes.push_back(
       {.id = fmt::format("select/r{}", round_->model.round),
        .kind = "select",
        .spec = selection_spec({.model = round_->model,
-                               .gamut = chunks,
+                               .gamut = round_->realisations->best(),
                                .count = scenario_.proposal.designs,
                                .simulations = simulations() + round_->realisations->simulated()})});
 }
@@ -193,6 +196,7 @@ void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outpu
                   proposal->gamut_hypervolume_staircase));
   last_parameters_ = game::material_side(round_->model.parameters);
   last_found_ = std::move(round_->found);
+  last_gamut_ = round_->realisations->gamut();
   last_round_ = round_->model.round;
   round_.reset();
   start_due_round(outputs);

@@ -58,7 +58,8 @@ class ProposalCore : public runtime::NodeCore {
   // another model a search that learns begins with what it found under the last one.
   std::optional<material::ParameterSet> last_parameters_;
   std::vector<explore::Evaluated> last_found_;
-  int last_round_ = -1;  // that was played to its end; every game begins with round 0
+  std::vector<explore::Evaluated> last_gamut_;  // as published, which the next one may add to
+  int last_round_ = -1;                         // that was played to its end; every game begins with round 0
   bool finished_ = false;
 };
 

@@ -1,6 +1,8 @@
 #include "proposal_agent/realisations.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,6 +50,15 @@ std::vector<pattern::Pattern> Realisations::candidates() const {
   add_ranks(true, 1);
   add_ranks(false, thesis::kBoundaryRanks);
   return {best.begin(), best.end()};
+}
+
+std::vector<explore::Evaluated> Realisations::best() const {
+  const std::vector<pattern::Pattern> patterns = candidates();  // sorted
+  std::vector<explore::Evaluated> samples;
+  std::ranges::copy_if(gamut_, std::back_inserter(samples), [&](const explore::Evaluated& sample) {
+    return std::ranges::binary_search(patterns, sample.pattern);
+  });
+  return samples;
 }
 
 std::vector<wire::SimulateRequest> Realisations::next(const wire::SimulateRequest& model) {

@@ -32,6 +32,8 @@ class Realisations {
 
   /// The gamut with the means known so far.
   const std::vector<explore::Evaluated>& gamut() const { return gamut_; }
+  /// Those of them that decide: the front of all, and the first ranks of what can be selected.
+  std::vector<explore::Evaluated> best() const;
   int simulated() const { return simulated_; }
 
  private:

@@ -16,24 +16,22 @@ Selection selection_from(const std::string& spec) {
   selection.count = std::stoi(fields.at(1));
   selection.simulations = std::stoi(fields.at(2));
   for (std::size_t field = 3; field < fields.size(); ++field) {
-    selection.gamut.push_back(expected(wire::read<wire::GamutChunk>(fields[field])));
+    const auto chunk = expected(wire::read<wire::GamutChunk>(fields[field]));
+    selection.gamut.insert(selection.gamut.end(), chunk.samples.begin(), chunk.samples.end());
   }
   return selection;
 }
 
 std::string work(const std::string& spec) {
-  const Selection selection = selection_from(spec);
-  std::vector<explore::Evaluated> gamut;
-  for (const wire::GamutChunk& chunk : selection.gamut)
-    gamut.insert(gamut.end(), chunk.samples.begin(), chunk.samples.end());
-  const std::vector<optimize::Performance> performances = explore::performances_of(gamut);
+  Selection selection = selection_from(spec);
+  const std::vector<optimize::Performance> performances = explore::performances_of(selection.gamut);
   wire::Proposal proposal;
   proposal.round = selection.model.round;
   proposal.fidelity = selection.model.fidelity;
   proposal.gamut_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(performances);
   proposal.gamut_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(performances);
   proposal.simulations = selection.simulations;
-  for (const select::Selected& each : select::select_with_reserve(std::move(gamut), selection.model.measured,
+  for (const select::Selected& each : select::select_with_reserve(std::move(selection.gamut), selection.model.measured,
                                                                   selection.model.benchmark, selection.count)) {
     proposal.designs.push_back({.design = each.pattern,
                                 .modulus_pa = each.predicted.modulus_pa,
@@ -49,7 +47,9 @@ std::string work(const std::string& spec) {
 std::string selection_spec(const Selection& selection) {
   std::vector<std::string> fields = {wire::write(selection.model), std::to_string(selection.count),
                                      std::to_string(selection.simulations)};
-  for (const wire::GamutChunk& chunk : selection.gamut) fields.push_back(wire::write(chunk));
+  for (const wire::GamutChunk& chunk :
+       wire::gamut_chunks(selection.model.round, selection.model.fidelity, selection.gamut))
+    fields.push_back(wire::write(chunk));
   return runtime::pack(fields);
 }
 

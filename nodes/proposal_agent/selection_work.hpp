@@ -11,10 +11,10 @@
 namespace nacre::proposal_agent {
 
 struct Selection {
-  wire::AdoptedModel model;  ///< with the benchmark line and the patterns already measured
-  std::vector<wire::GamutChunk> gamut;
-  int count = 0;        ///< designs to select
-  int simulations = 0;  ///< spent on the gamut
+  wire::AdoptedModel model;               ///< with the benchmark line and the patterns already measured
+  std::vector<explore::Evaluated> gamut;  ///< of it at least the front, and the first ranks of what is not measured
+  int count = 0;                          ///< designs to select
+  int simulations = 0;                    ///< spent on the gamut
 };
 
 /// Spec of a Compute of kind "select".

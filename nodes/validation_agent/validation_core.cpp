@@ -96,10 +96,9 @@ void ValidationCore::accept_work(const runtime::WorkDone& work) {
 void ValidationCore::accept_gamut(const std::string& payload) {
   auto chunk = wire::read<wire::GamutChunk>(payload);
   if (!chunk) return say(LogLevel::warning, "a GAMUT is ignored: " + chunk.error().message);
-  const int round = chunk->round;
   // Of a later round, too: after a lost journal the others offer again what belongs to rounds still to come.
-  if (chunk->fidelity != scenario_.fidelity || round < round_ || gamuts_.contains(round)) return;
-  if (auto whole = gamut_chunks_.add(*std::move(chunk))) gamuts_.emplace(round, *std::move(whole));
+  if (chunk->fidelity != scenario_.fidelity || chunk->round < round_) return;
+  gamuts_.add(*std::move(chunk));
   close_round_when_proposed();
 }
 

@@ -114,7 +114,7 @@ class ValidationCore : public runtime::NodeCore {
   std::vector<optimize::Performance> benchmark() const;
   std::set<pattern::Pattern> settled_patterns() const;
   void close_round_when_proposed();
-  wire::RoundSummary summary() const;
+  wire::RoundSummary summary();
 
   // The stage after the last round.
   StageBeginning stage_beginning() const;
@@ -158,8 +158,7 @@ class ValidationCore : public runtime::NodeCore {
   std::optional<OnTrial> trial_;
 
   std::set<std::string> calibrated_designs_;  // ever calibrated on: no longer out-of-sample
-  wire::GamutCollector gamut_chunks_;
-  std::map<int, std::vector<explore::Evaluated>> gamuts_;
+  wire::GamutCollector gamuts_;
   std::map<int, wire::Proposal> proposals_;
   std::map<int, std::vector<std::string>> early_measurements_;
   std::map<int, wire::Diagnosis>

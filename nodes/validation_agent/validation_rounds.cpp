@@ -258,7 +258,7 @@ std::set<pattern::Pattern> ValidationCore::settled_patterns() const {
 }
 
 void ValidationCore::close_round_when_proposed() {
-  if (phase_ != Phase::waiting_for_proposal || !gamuts_.contains(round_) || !proposals_.contains(round_)) return;
+  if (phase_ != Phase::waiting_for_proposal || !gamuts_.whole(round_) || !proposals_.contains(round_)) return;
   wire::RoundSummary round = summary();
   history_.push_back({.round = round_,
                       .measured_hypervolume = round.measured_hypervolume_staircase,
@@ -270,7 +270,7 @@ void ValidationCore::close_round_when_proposed() {
   round.decided_by = check.decided_by;
   if (round.last && !check.equilibrium)
     round.decided_by += fmt::format("; the limit of {} is reached", counted(scenario_.rounds, "round"));
-  gamuts_.erase(round_);
+  gamuts_.forget_before(round_);
   StageBeginning beginning = stage_beginning();
   const bool families_follow = round.last && scenario_.families.enabled && FamilyStage::is_possible(beginning);
   if (families_follow) {
@@ -320,11 +320,11 @@ void ValidationCore::finish_families() {
   send("ROUND", last_round_);
 }
 
-wire::RoundSummary ValidationCore::summary() const {
+wire::RoundSummary ValidationCore::summary() {
   const auto values = game::measured_values(specimens_);
   const auto measured = game::measured_performances(values);
   std::vector<optimize::Performance> gamut;
-  for (const explore::Evaluated& sample : gamuts_.at(round_))
+  for (const explore::Evaluated& sample : *gamuts_.whole(round_))
     gamut.push_back(game::through_machine(sample.performance, model_));
   wire::RoundSummary round;
   round.round = round_;

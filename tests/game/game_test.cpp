@@ -10,8 +10,10 @@
 
 #include "../instrumented.hpp"
 #include "base/files.hpp"
+#include "explore/search.hpp"
 #include "in_process_game.hpp"
 #include "material/parameter_file.hpp"
+#include "optimize/pareto.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "stand_ins.hpp"
@@ -207,6 +209,30 @@ TEST(Game, EndsAtEquilibriumBeforeTheLimit) {
   EXPECT_GE(rounds.back().round, 3);
   EXPECT_LT(rounds.back().round, scenario.rounds);
   EXPECT_THAT(rounds.back().decided_by, HasSubstr("round " + std::to_string(rounds.back().round)));
+}
+
+TEST(Game, WithAModelThatStaysEachRoundSaysWhatIsNewInItsGamut) {
+  const game::Scenario scenario = unfitted_scenario();
+  InProcessGame game;
+  add_players(game, scenario);
+  play_whole(game, scenario);
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
+  ASSERT_THAT(rounds, SizeIs(static_cast<std::size_t>(scenario.rounds) + 1));
+  wire::GamutCollector gamuts;
+  std::vector<std::size_t> said(rounds.size()), whole(rounds.size());
+  for (const auto& chunk : game.sent<wire::GamutChunk>("GAMUT")) {
+    EXPECT_EQ(chunk.base, chunk.round - 1);
+    said.at(static_cast<std::size_t>(chunk.round)) += chunk.samples.size();
+    gamuts.add(chunk);
+    ASSERT_NE(gamuts.whole(chunk.round), nullptr);
+    const std::vector<explore::Evaluated>& gamut = *gamuts.whole(chunk.round);
+    whole.at(static_cast<std::size_t>(chunk.round)) = gamut.size();
+    EXPECT_EQ(std::ssize(gamut), chunk.total);
+    EXPECT_EQ(rounds.at(static_cast<std::size_t>(chunk.round)).gamut_hypervolume_staircase,
+              optimize::hypervolume_staircase_gpa_mpa(explore::performances_of(gamut)));
+  }
+  EXPECT_GT(whole.back(), 4 * whole.front());
+  for (std::size_t round = 1; round < said.size(); ++round) EXPECT_LT(said[round], 2 * whole.front()) << round;
 }
 
 TEST(Game, FailedSimulationsDoNotStopIt) {

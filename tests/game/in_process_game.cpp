@@ -118,7 +118,8 @@ std::int64_t InProcessGame::write_journal(const std::string& node, const std::fi
       EXPECT_TRUE(writer.append(1, std::string(runtime::kOutPrefix) + message.channel, message.payload));
     }
     for (const runtime::Compute& compute : outputs.computes) {
-      EXPECT_TRUE(writer.append(1, runtime::kComputeChannel, runtime::pack({compute.id, compute.kind, compute.spec})));
+      EXPECT_TRUE(writer.append(1, runtime::kComputeChannel,
+                                runtime::pack({compute.id, compute.kind, runtime::journaled_spec(compute)})));
     }
     records += 1 + static_cast<std::int64_t>(outputs.messages.size() + outputs.computes.size());
   }

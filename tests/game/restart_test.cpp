@@ -68,8 +68,7 @@ TEST(Restart, FoldsTheJournalOfFiveRoundsInSeconds) {
 
 // A power cut took the validation agent's journal: the others offer what they sent of all rounds before it has come
 // back to any of them, and nobody sends it twice.
-TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
-  const game::Scenario scenario = small_scenario();
+void expect_it_comes_back(const game::Scenario& scenario) {
   InProcessGame whole;
   add_players(whole, scenario);
   whole.announce(scenario);
@@ -89,6 +88,11 @@ TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
   EXPECT_EQ(counts(again), counts(whole));
   EXPECT_EQ(again.payloads("PARAMETERS"), whole.payloads("PARAMETERS"));
   EXPECT_EQ(again.payloads("ROUND"), whole.payloads("ROUND"));
+}
+
+TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
+  expect_it_comes_back(small_scenario());
+  expect_it_comes_back(unfitted_scenario());  // where each gamut is said as what it adds to the last
 }
 
 /// The proposal agent and the farm that it asks.

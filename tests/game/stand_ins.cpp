@@ -231,6 +231,14 @@ game::Scenario small_scenario() {
   return scenario;
 }
 
+game::Scenario unfitted_scenario() {
+  game::Scenario scenario = small_scenario();
+  scenario.rounds = 6;
+  scenario.validation.calibration_evaluations = scenario.validation.modulus_evaluations = 0;
+  scenario.diagnosis.enabled = false;
+  return scenario;
+}
+
 void add_players(InProcessGame& game, const game::Scenario& scenario, const LaboratorySettings& laboratory,
                  std::function<wire::Diagnosis(int)> diagnosis, std::set<std::string> failing) {
   game.add("simulator_farm", simulator_farm::make_core(scenario), closed_form_work(std::move(failing)));

@@ -45,6 +45,9 @@ std::unique_ptr<runtime::NodeCore> make_analyser(std::function<wire::Diagnosis(i
 /// A scenario small enough for hundreds of games: 20 samples, 2 designs a round.
 game::Scenario small_scenario();
 
+/// Six rounds of it in which nothing is fitted: its model stays.
+game::Scenario unfitted_scenario();
+
 /// The three nodes under test and the two stand-ins, with the closed-form tester.
 void add_players(InProcessGame& game, const game::Scenario& scenario, const LaboratorySettings& laboratory = {},
                  std::function<wire::Diagnosis(int)> diagnosis = {}, std::set<std::string> failing = {});

@@ -180,14 +180,15 @@ class NodeRewording {
     if (computes_.empty()) refuse("the core does not ask for this work any more");
     const runtime::Compute now = std::move(computes_.front());
     computes_.pop_front();
-    expect_same(fields.at(2), now.spec);
+    const std::string spec = runtime::journaled_spec(now);
+    expect_same(fields.at(2), spec);
     // What is stored is named by its hash.
-    const bool is_named_by_content = now.kind == "store" && fields.at(2) != now.spec;
+    const bool is_named_by_content = now.kind == "store" && fields.at(2) != spec;
     if (fields.at(1) != now.kind || (fields.at(0) != now.id && !is_named_by_content))
       refuse(fmt::format("recorded the work {} ({}), now {} ({})", fields.at(0), fields.at(1), now.id, now.kind));
     rewording_.ids += fields.at(0) != now.id;
     asked_[fields.at(0)] = now;
-    return runtime::pack({now.id, now.kind, now.spec});
+    return runtime::pack({now.id, now.kind, spec});
   }
 
   void step(const runtime::Input& input) {

@@ -73,17 +73,19 @@ export async function openDashboard(run, ...options) {
 
 /** A GAMUT of `count` random patterns: `sound`, another one of `samples` patterns, with its content replaced. */
 function gamutMessage(sound, samples, round, chunk, count) {
-  const head = sound.subarray(0, sound.length - 24 * samples - 17); // fingerprint and blank header
-  const body = Buffer.alloc(17 + 24 * count);
+  const head = sound.subarray(0, sound.length - 24 * samples - 25); // fingerprint and blank header
+  const body = Buffer.alloc(25 + 24 * count);
   body.writeInt32BE(round, 0);
-  body.writeInt8(sound.readInt8(head.length + 4), 4); // fidelity
-  body.writeInt32BE(chunk, 5);
-  body.writeInt32BE(chunk + 1, 9);
-  body.writeInt32BE(count, 13);
+  body.writeInt32BE(sound.readInt32BE(head.length + 4), 4); // base
+  body.writeInt32BE(1_000_000, 8); // in all, at most
+  body.writeInt8(sound.readInt8(head.length + 12), 12); // fidelity
+  body.writeInt32BE(chunk, 13);
+  body.writeInt32BE(chunk + 1, 17);
+  body.writeInt32BE(count, 21);
   for (let i = 0; i < count; ++i) {
-    body.writeBigInt64BE(BigInt(Math.floor(Math.random() * 2 ** 53)) * 4n, 17 + 8 * i);
-    body.writeDoubleBE(2e9 * Math.random(), 17 + 8 * (count + i));
-    body.writeDoubleBE(8e5 * Math.random() * Math.random(), 17 + 8 * (2 * count + i));
+    body.writeBigInt64BE(BigInt(Math.floor(Math.random() * 2 ** 53)) * 4n, 25 + 8 * i);
+    body.writeDoubleBE(2e9 * Math.random(), 25 + 8 * (count + i));
+    body.writeDoubleBE(8e5 * Math.random() * Math.random(), 25 + 8 * (2 * count + i));
   }
   return Buffer.concat([head, body]);
 }

@@ -141,6 +141,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
   Watched analyser;
   analyser.receive("PROPOSAL", proposal_of(1, {5, 6}));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), IsEmpty()) << "the model is still on its way";
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
   const Message request = analyser.sent_on("SIMULATE").front();
@@ -195,6 +196,7 @@ TEST(Analyser, MoreDesignsThanARequestHoldsAreFilmedByTwo) {
   Watched analyser;
   std::vector<std::uint64_t> patterns(wire::kMaximumDesigns + 2);
   for (std::size_t i = 0; i < patterns.size(); ++i) patterns[i] = i + 1;
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   analyser.receive("PROPOSAL", proposal_of(1, patterns));
   const std::vector<Message> requests = analyser.sent_on("SIMULATE");
@@ -363,6 +365,7 @@ TEST(Analyser, ReportWaitsForStoresAndTheModelsWordOnMeasuredDesigns) {
   Watched analyser;
   analyser.receive("MEASUREMENT", measurement_of("a", 5));
   analyser.receive("MEASUREMENT", measurement_of("b", 5));
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   analyser.receive("ROUND", round_of(1, false));
   const auto requests = analyser.sent_on("SIMULATE");
@@ -382,6 +385,7 @@ TEST(Analyser, ResponsesAboutAnotherModelOfTheRoundAreNotTaken) {
   for (Watched* each : {&before, &now}) {
     each->receive("MEASUREMENT", measurement_of("a", 5));
     each->receive("PROPOSAL", proposal_of(1, {6}));
+    each->receive("PARAMETERS", model_of(0, 2.0));
     each->receive("PARAMETERS", model_of(1, each == &now ? 1.5 : 1.0));
     each->receive("ROUND", round_of(1, false));
     ASSERT_THAT(each->sent_on("SIMULATE"), SizeIs(2)) << "films, and the word on the measured design";
@@ -408,6 +412,7 @@ TEST(Analyser, ChunksOfAResponseCountOnceEach) {
   Watched analyser;
   for (std::uint64_t bits = 1; bits <= 60; ++bits)
     analyser.receive("MEASUREMENT", measurement_of(std::to_string(bits), bits));
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   analyser.receive("ROUND", round_of(1, false));
   const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
@@ -435,26 +440,25 @@ TEST(Analyser, RoundBeforeItsModelWaitsForTheModel) {
   analyser.receive("ROUND", round_of(1, false));
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), IsEmpty());
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
 }
 
-TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
+/// What is asked of the models of rounds, whatever comes first: "analyser/r1", key of the pattern.
+void expect_asked(const std::vector<Message>& models, const std::set<std::pair<std::string, std::string>>& expected) {
   std::vector<Message> messages = {{"MEASUREMENT", measurement_of("a", 5, 1)},
                                    {"MEASUREMENT", measurement_of("b", 6, 2)},
-                                   {"PARAMETERS", model_of(1)},
-                                   {"PARAMETERS", model_of(2)},
                                    {"ROUND", round_of(1, false)},
                                    {"ROUND", round_of(2, true)}};
-  const std::set<std::pair<std::string, std::string>> expected = {{"analyser/r1", pattern::Pattern(5).key()},
-                                                                  {"analyser/r2", pattern::Pattern(5).key()},
-                                                                  {"analyser/r2", pattern::Pattern(6).key()}};
+  messages.insert(messages.end(), models.begin(), models.end());
   const auto before = [](const Message& a, const Message& b) {
     return std::tie(a.channel, a.payload) < std::tie(b.channel, b.payload);
   };
   std::sort(messages.begin(), messages.end(), before);
   do {
     Watched analyser;
+    analyser.receive("PARAMETERS", model_of(0, 2.0));
     for (const Message& message : messages) analyser.receive(message.channel, message.payload);
     std::multiset<std::pair<std::string, std::string>> asked;
     for (const Message& request : analyser.sent_on("SIMULATE")) {
@@ -464,6 +468,18 @@ TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
     }
     ASSERT_THAT(asked, testing::ElementsAreArray(expected));
   } while (std::next_permutation(messages.begin(), messages.end(), before));
+}
+
+TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
+  expect_asked({{"PARAMETERS", model_of(1)}, {"PARAMETERS", model_of(2, 3.0)}},
+               {{"analyser/r1", pattern::Pattern(5).key()},
+                {"analyser/r2", pattern::Pattern(5).key()},
+                {"analyser/r2", pattern::Pattern(6).key()}});
+}
+
+TEST(Analyser, AModelThatStaysIsAskedForEachDesignOnce) {
+  expect_asked({{"PARAMETERS", model_of(1)}, {"PARAMETERS", model_of(2)}},
+               {{"analyser/r1", pattern::Pattern(5).key()}, {"analyser/r2", pattern::Pattern(6).key()}});
 }
 
 TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
@@ -483,6 +499,7 @@ TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
 
 TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   Watched analyser;
+  analyser.receive("PARAMETERS", model_of(0, 2.0));
   analyser.receive("PARAMETERS", model_of(1));
   analyser.receive("ROUND", round_of(1, false));
   analyser.finish_stores();
@@ -492,7 +509,7 @@ TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   family.parameters = material::default_parameters();
   analyser.receive("FAMILY", wire::write(family));
   analyser.receive("FAMILY_GAMUT", wire::write(wire::FamilyGamut{}));
-  EXPECT_THAT(analyser.ids("store"), SizeIs(4)) << "kept like everything else";
+  EXPECT_THAT(analyser.ids("store"), SizeIs(5)) << "kept like everything else";
   analyser.finish_stores();
   EXPECT_FALSE(analyser.core.status().finished);
   analyser.receive("ROUND", round_of(1, true));

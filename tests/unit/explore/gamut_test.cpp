@@ -31,6 +31,19 @@ std::string reading_error(std::string_view text) {
   return "no error";
 }
 
+TEST(Changes, OfAGamutAndTheGamutTheyMakeOfItsBase) {
+  const auto base = some_gamut(1);
+  auto now = base;
+  now[3].performance.toughness_pa *= 2.0;
+  for (const Evaluated& sample : some_gamut(2)) now.push_back(sample);
+  now = merge_gamuts(std::vector{now});
+  const auto changed = changes(base, now);
+  EXPECT_EQ(changed.size(), now.size() - base.size() + 1);
+  EXPECT_EQ(with_changes(base, changed), now);
+  EXPECT_TRUE(changes(now, now).empty());
+  EXPECT_EQ(changes({}, now), now);
+}
+
 TEST(GamutCsv, ReadsBackExactlyWhatWasWritten) {
   const auto gamut = some_gamut(1);
   const std::string path = ::testing::TempDir() + "/nacre_gamut_test.csv";

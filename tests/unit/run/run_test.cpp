@@ -119,7 +119,9 @@ TEST_F(RunOfAFile, AReviewBringsBackASpecimenThatMeansSomethingAndNoOther) {
 
 TEST_F(RunOfAFile, AGamutIsReadWithItsPatternsOrLeftOut) {
   wire::GamutChunk chunk{
-      .round = 3, .samples = {{pattern::Pattern(0x577fffe9fffdef), {1e9, 1e5}}, {pattern::Pattern(1), {2e9, 5e4}}}};
+      .round = 3,
+      .total = 2,
+      .samples = {{pattern::Pattern(0x577fffe9fffdef), {1e9, 1e5}}, {pattern::Pattern(1), {2e9, 5e4}}}};
   database_->keep("GAMUT", wire::write(chunk));
   EXPECT_EQ(read().rounds[3].gamut->patterns.size(), 2u);
   EXPECT_EQ(run_.record()->rounds.at(3).gamut, nullptr);
@@ -134,6 +136,7 @@ TEST_F(RunOfAFile, AGamutIsReadWithItsPatternsOrLeftOut) {
 TEST_F(RunOfAFile, AGrowingRunIsReadOnFromWhereItWasRead) {
   wire::GamutChunk chunk = wire::samples::gamut();
   chunk.chunks = 2;
+  chunk.total = 3;
   database_->keep("GAMUT", wire::write(chunk));
   EXPECT_EQ(run_.gamut(chunk.round)->patterns.size(), 2u);
   const std::string before = run_.version();
@@ -143,6 +146,26 @@ TEST_F(RunOfAFile, AGrowingRunIsReadOnFromWhereItWasRead) {
   EXPECT_NE(run_.version(), before);
   EXPECT_EQ(run_.gamut(chunk.round)->patterns.size(), 3u);
   EXPECT_EQ(run_.record()->rounds.at(chunk.round).gamut_count, 3);
+}
+
+TEST_F(RunOfAFile, AGamutIsPutTogetherFromItsBases) {
+  const auto keep = [&](int round, int base, int total, std::vector<explore::Evaluated> samples) {
+    database_->keep("GAMUT", wire::write(wire::GamutChunk{
+                                 .round = round, .base = base, .total = total, .samples = std::move(samples)}));
+  };
+  keep(5, 4, 3, {{pattern::Pattern(1), {2e9, 9e4}}});
+  keep(4, 3, 3, {{pattern::Pattern(9), {3e9, 1e4}}});
+  EXPECT_FALSE(run_.record()->rounds.at(5).is_gamut_whole) << "round 3 is on its way";
+  keep(3, -1, 2, {{pattern::Pattern(7), {1e9, 1e5}}, {pattern::Pattern(1), {2e9, 5e4}}});
+  const auto rounds = run_.record()->rounds;
+  for (const int round : {3, 4, 5}) {
+    EXPECT_TRUE(rounds.at(round).is_gamut_whole);
+    EXPECT_EQ(rounds.at(round).gamut_count, round == 3 ? 2 : 3);
+  }
+  EXPECT_EQ(run_.gamut(4)->patterns, (std::vector<std::uint64_t>{1, 7, 9}));
+  EXPECT_EQ(run_.gamut(4)->performances.front(), (optimize::Performance{2e9, 5e4}));
+  EXPECT_EQ(run_.gamut(5)->performances.front(), (optimize::Performance{2e9, 9e4})) << "the later sample counts";
+  EXPECT_EQ(run_.record_with_gamuts(std::set{5}).rounds.at(4).gamut, nullptr) << "nobody asked for it";
 }
 
 TEST_F(RunOfAFile, ADatabaseMadeAnewIsReadAnew) {

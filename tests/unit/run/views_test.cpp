@@ -125,6 +125,22 @@ TEST_F(ViewsOfARun, AFrontIsWhatNothingDominates) {
   EXPECT_EQ(rows("SELECT * FROM fronts").size(), optimize::pareto_front(points).size());
 }
 
+TEST_F(ViewsOfARun, AGamutIsPutTogetherFromItsBases) {
+  const auto keep = [&](int round, int base, int total, std::vector<explore::Evaluated> samples) {
+    database_.keep("GAMUT", wire::write(wire::GamutChunk{
+                                .round = round, .base = base, .total = total, .samples = std::move(samples)}));
+  };
+  keep(0, -1, 2, {{pattern::Pattern(1), {1e9, 1e5}}, {pattern::Pattern(2), {2e9, 1e4}}});
+  keep(1, 0, 3, {{pattern::Pattern(3), {3e9, 1e3}}});
+  keep(2, 1, 3, {{pattern::Pattern(1), {1e9, 2e5}}});
+  keep(3, -1, 1, {{pattern::Pattern(1), {5e9, 2e5}}});
+  EXPECT_EQ(
+      rows("SELECT round, pattern, modulus_pa / 1e9, toughness_pa FROM gamut WHERE pattern LIKE '%1' OR round = 2"),
+      (std::vector<std::string>{"0|00000000000001|1.0|100000.0", "1|00000000000001|1.0|100000.0",
+                                "2|00000000000001|1.0|200000.0", "2|00000000000002|2.0|10000.0",
+                                "2|00000000000003|3.0|1000.0", "3|00000000000001|5.0|200000.0"}));
+}
+
 TEST_F(ViewsOfARun, TheMeasuredFrontGrowsFromRoundToRound) {
   close(1);
   close(2);

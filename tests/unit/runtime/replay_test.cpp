@@ -64,7 +64,7 @@ class Recording {
     const Outputs outputs = core_.step(input);
     for (const Message& message : outputs.messages) add("~out/" + message.channel, message.payload);
     for (const Compute& compute : outputs.computes) {
-      add(kComputeChannel, pack({compute.id, compute.kind, compute.spec}));
+      add(kComputeChannel, pack({compute.id, compute.kind, journaled_spec(compute)}));
       const WorkDone done{compute.id, kWork.at(compute.kind)(compute.spec)};
       add(kAckedChannel, pack({"some hash", "somebody", "1"}));
       add(kWorkChannel, pack({done.id, done.result}));

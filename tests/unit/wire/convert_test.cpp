@@ -274,11 +274,76 @@ TEST(Convert, GamutsAreCutIntoChunksAndJoined) {
   const std::vector<GamutChunk> chunks = gamut_chunks(2, tester::Fidelity::tiny, samples);
   ASSERT_EQ(chunks.size(), 3u);
   GamutCollector collector;
-  EXPECT_FALSE(collector.add(chunks[2]));
-  EXPECT_FALSE(collector.add(chunks[0]));
+  for (const int place : {2, 0, 2}) {
+    collector.add(chunks[place]);
+    EXPECT_EQ(collector.whole(2), nullptr);
+  }
   EXPECT_LE(write(chunks[0]).size(), kMaximumBlankPayload);
-  EXPECT_EQ(collector.add(chunks[1]), samples);
+  collector.add(chunks[1]);
+  ASSERT_NE(collector.whole(2), nullptr);
+  EXPECT_EQ(*collector.whole(2), samples);
   EXPECT_EQ(gamut_chunks(2, tester::Fidelity::tiny, {}).size(), 1u);
+}
+
+std::vector<explore::Evaluated> gamut_until(std::uint64_t count) {
+  std::vector<explore::Evaluated> samples;
+  for (std::uint64_t i = 0; i < count; ++i) samples.push_back({pattern::Pattern(i), {1e9, static_cast<double>(i)}});
+  return samples;
+}
+
+TEST(Convert, AGamutIsSentAsWhatItAddsToTheLast) {
+  const auto first = gamut_until(10);
+  auto second = gamut_until(12);
+  second[3].performance.toughness_pa = 0.5;  // the mean of further realisations
+  const std::vector<GamutChunk> chunks = gamut_chunks(4, tester::Fidelity::tiny, second, 3, first);
+  ASSERT_EQ(chunks.size(), 1u);
+  EXPECT_EQ(chunks[0].base, 3);
+  EXPECT_EQ(chunks[0].total, 12);
+  EXPECT_EQ(chunks[0].samples, (std::vector{second[3], second[10], second[11]}));
+}
+
+TEST(Convert, AGamutThatIsNoOtherWithChangesIsSentWhole) {
+  const auto first = gamut_until(10), shorter = gamut_until(5);
+  auto all_else = first, turned = first;
+  for (explore::Evaluated& sample : all_else) sample.performance.modulus_pa = 2e9;
+  std::swap(turned.front(), turned.back());
+  for (const auto& now : {shorter, all_else, turned}) {
+    const std::vector<GamutChunk> chunks = gamut_chunks(4, tester::Fidelity::tiny, now, 3, first);
+    EXPECT_EQ(chunks, gamut_chunks(4, tester::Fidelity::tiny, now));
+    EXPECT_EQ(chunks[0].base, -1);
+  }
+}
+
+TEST(Convert, AGamutIsWholeOnceItsBasesAreWhateverComesFirst) {
+  std::vector<GamutChunk> chunks;
+  for (int round = 0; round < 4; ++round)
+    for (GamutChunk& chunk : gamut_chunks(round, tester::Fidelity::tiny, gamut_until(5 + round), round - 1,
+                                          gamut_until(round == 0 ? 0 : 4 + round)))
+      chunks.push_back(std::move(chunk));
+  ASSERT_EQ(chunks.size(), 4u);
+  GamutCollector collector;
+  for (const int place : {3, 1, 3, 2}) {
+    collector.add(chunks[place]);
+    EXPECT_EQ(collector.whole(3), nullptr) << "round 0 has not come";
+  }
+  collector.add(chunks[0]);
+  for (int round = 3; round >= 0; --round) {
+    ASSERT_NE(collector.whole(round), nullptr);
+    EXPECT_EQ(*collector.whole(round), gamut_until(5 + round));
+  }
+  collector.forget_before(3);
+  EXPECT_EQ(collector.whole(2), nullptr);
+  EXPECT_NE(collector.whole(3), nullptr) << "the next round may add to it";
+}
+
+TEST(Convert, AGamutHasNoBaseOfItsOwnRoundOrALaterOne) {
+  GamutChunk chunk = gamut_chunks(4, tester::Fidelity::tiny, gamut_until(2)).front();
+  for (const int base : {4, 5, -2}) {
+    chunk.base = base;
+    const auto read_back = read<GamutChunk>(write(chunk));
+    ASSERT_FALSE(read_back);
+    EXPECT_NE(read_back.error().message.find("base"), std::string::npos) << read_back.error().message;
+  }
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ inline AdoptedModel model() {
 }
 
 inline GamutChunk gamut() {
-  return {1, tester::Fidelity::tiny, 0, 1, {{pattern::Pattern(7), {1e9, 2e6}}, {pattern::Pattern(8), {2e9, 1e6}}}};
+  return {
+      1, -1, 2, tester::Fidelity::tiny, 0, 1, {{pattern::Pattern(7), {1e9, 2e6}}, {pattern::Pattern(8), {2e9, 1e6}}}};
 }
 
 inline FamilyGamut family_gamut() {
