@@ -180,9 +180,15 @@ SupervisedNode::Settings Launch::helper(const std::string& name, std::vector<std
 }
 
 void Launch::start_recorder() {
-  recorder_ = std::make_unique<SupervisedNode>(
-      helper("recorder", {"record", "--log", run_.bus_log().string(), "--port", std::to_string(port_->port()),
-                          "--hosts", run_.scenario().hosts}));
+  std::vector<std::string> arguments = {"record",
+                                        "--log",
+                                        run_.bus_log().string(),
+                                        "--port",
+                                        std::to_string(port_->port()),
+                                        "--hosts",
+                                        run_.scenario().hosts};
+  if (options_.max_log_mb > 0) arguments.insert(arguments.end(), {"--max-log-mb", std::to_string(options_.max_log_mb)});
+  recorder_ = std::make_unique<SupervisedNode>(helper("recorder", std::move(arguments)));
   recorder_->start();
 }
 

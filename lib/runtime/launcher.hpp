@@ -21,6 +21,7 @@ struct LaunchOptions {
   std::filesystem::path program_folder;       ///< of nacre_NODE; empty: beside this program
   std::filesystem::path nacre;                ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
+  int max_log_mb = 0;                  ///< after which run.lcm goes on in another piece; 0: one file
   bool dashboard = false;              ///< show the run in the browser while it plays
   std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
   std::vector<std::string> debug;      ///< nodes that wait for a debugger at their start

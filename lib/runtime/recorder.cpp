@@ -6,21 +6,39 @@
 #include <utility>
 
 #include "base/no_space.hpp"
+#include "runtime/journal.hpp"
+#include "runtime/latest_state.hpp"
 #include "runtime/log_file.hpp"
+#include "runtime/log_pieces.hpp"
 #include "runtime/sequence.hpp"
 
 namespace nacre::runtime {
 namespace {
 
-/// Cuts a torn tail off an existing log; returns the number of records in it.
-std::int64_t mend(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return 0;
-  LogReader reader(path);
+std::int64_t bytes_in_log(std::string_view channel, std::string_view data) {
+  return kRecordHeaderSize + static_cast<std::int64_t>(channel.size() + data.size());
+}
+
+/// How the last piece of a log goes on.
+struct LastPiece {
   std::int64_t records = 0;
+  std::int64_t own_bytes = 0;  ///< beside the repeated state
+};
+
+/// Cuts a torn tail off an existing piece, and takes the state that it ends with.
+LastPiece mend(const std::filesystem::path& path, LatestState& latest) {
+  LastPiece last;
+  if (!std::filesystem::exists(path)) return last;
+  LogReader reader(path);
+  std::int64_t repeated_until = -1;
   while (true) {
     try {
-      if (!reader.next()) break;
-      ++records;
+      const auto record = reader.next();
+      if (!record) break;
+      ++last.records;
+      latest.take(record->channel, record->data);
+      if (record->channel == kPieceChannel) repeated_until = record->number + repeated_behind(*record);
+      if (record->number > repeated_until) last.own_bytes += bytes_in_log(record->channel, record->data);
     } catch (const InputError&) {
       reader.resync();  // damaged in the middle: what stands behind it is still worth keeping
     }
@@ -28,7 +46,7 @@ std::int64_t mend(const std::filesystem::path& path) {
   std::error_code ignored;
   if (reader.end().torn_bytes > 0)
     std::filesystem::resize_file(path, static_cast<std::uintmax_t>(reader.end().sound_bytes), ignored);
-  return records;
+  return last;
 }
 
 }  // namespace
@@ -39,11 +57,36 @@ struct Recorder::State {
   std::unique_ptr<Bus> bus;
   SequenceCounter sequences;
   RecorderCounters counters;
+  LatestState latest;
+  int piece = 1;
+  std::int64_t own_bytes = 0;  ///< of the piece, beside the repeated state
   std::int64_t next_flush = 0;
   bool unflushed = false;
 
   void report(LogLevel level, const std::string& text) const {
     if (options.report) options.report(level, text);
+  }
+
+  /// The next piece comes under its name with the whole state in it: whoever is killed before leaves the last one.
+  Result<void> begin_piece() {
+    if (const Result<void> flushed = writer->flush(); !flushed) return flushed;
+    const std::filesystem::path file = piece_of(options.log, piece + 1), part = file.string() + ".part";
+    std::error_code problem;
+    std::filesystem::remove(part, problem);
+    auto next = std::make_unique<LogWriter>(part);
+    const std::vector<LatestState::Kept> state = latest.messages();
+    Result<void> written =
+        next->append(now_utime(), kPieceChannel, pack({std::to_string(piece + 1), std::to_string(state.size())}));
+    for (const LatestState::Kept& each : state)
+      if (written) written = next->append(now_utime(), each.channel, each.bytes);
+    if (written) written = next->flush();
+    if (!written) return written;
+    std::filesystem::rename(part, file, problem);
+    if (problem) return fail("{}: cannot be made: {}", file.string(), problem.message());
+    writer = std::move(next);
+    ++piece;
+    own_bytes = 0;
+    return {};
   }
 
   Result<void> record(const Datagram& datagram) {
@@ -52,8 +95,12 @@ struct Recorder::State {
         report(LogLevel::warning, "a message without a channel is not recorded; further ones are not told of");
       return {};
     }
+    if (options.most_bytes > 0 && own_bytes >= options.most_bytes)
+      if (const Result<void> begun = begin_piece(); !begun) return begun;
     const Result<void> written = writer->append(now_utime(), datagram.channel, datagram.bytes);
     if (!written) return written;
+    own_bytes += bytes_in_log(datagram.channel, datagram.bytes);
+    if (options.most_bytes > 0) latest.take(datagram.channel, datagram.bytes);
     unflushed = true;
     ++counters.messages;
     counters.bytes += datagram.bytes.size();
@@ -74,7 +121,11 @@ Recorder::Recorder(RecorderOptions options) : state_(std::make_unique<State>()) 
   const std::filesystem::path& log = state_->options.log;
   std::error_code ignored;  // the writer says why the file cannot be made
   if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path(), ignored);
-  state_->writer = std::make_unique<LogWriter>(log, mend(log));
+  const std::vector<std::filesystem::path> pieces = pieces_of(log);
+  const LastPiece last = mend(pieces.back(), state_->latest);
+  state_->piece = static_cast<int>(pieces.size());
+  state_->own_bytes = last.own_bytes;
+  state_->writer = std::make_unique<LogWriter>(pieces.back(), last.records);
   BusOptions bus;
   bus.url = state_->options.url;
   bus.node = "recorder";

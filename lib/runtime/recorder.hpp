@@ -1,6 +1,6 @@
 #pragma once
 // Records everything on the bus of a run in RUN/run.lcm, for people: bursts without loss, flushed on a timer, gaps
-// reported.
+// reported, in pieces where that is wanted.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,8 @@
 namespace nacre::runtime {
 
 struct RecorderOptions {
-  std::filesystem::path log;  ///< appended to when it exists (a torn tail is cut off)
+  std::filesystem::path log;    ///< its last piece is appended to when it exists (a torn tail is cut off)
+  std::int64_t most_bytes = 0;  ///< of a piece, beside the repeated state; 0: one file (log_pieces.hpp)
   std::string url;
   double flush_every_s = 0.2;
   std::function<void(LogLevel, const std::string&)> report = {};

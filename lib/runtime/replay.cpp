@@ -8,6 +8,7 @@
 #include "runtime/content_difference.hpp"
 #include "runtime/fold.hpp"
 #include "runtime/journal.hpp"
+#include "runtime/log_pieces.hpp"
 #include "wire/channels.hpp"
 #include "wire/header.hpp"
 
@@ -155,7 +156,7 @@ ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string&
       "best effort: the bus log holds the order in which the recorder received the messages, not the node; ticks are "
       "not recorded, and work is done at once. The node's own journal gives the exact comparison";
   BusReplay replay(node, core, work, report);
-  LogReader reader(log);
+  PiecesReader reader(log);
   std::int64_t records = 0;
   for (; const auto record = reader.next(); ++records) replay.feed(*record);
   if (records == 0) throw nothing_to_replay(log);

@@ -38,7 +38,7 @@ void ForgivingReader::note_end() {
   torn_bytes_ = end.torn_bytes;
   if (torn_bytes_ == 0) return;
   warn(fmt::format("{}: ends in a torn record, {} bytes from byte {}: it is being written, or was when that ended",
-                   log_.string(), end.torn_bytes, end.sound_bytes));
+                   reader_.path().string(), end.torn_bytes, end.sound_bytes));
 }
 
 }  // namespace nacre::cli

@@ -1,11 +1,11 @@
 #pragma once
-// A log as people read it: damage is said, and what stands behind it is read all the same.
+// A log as people read it, with its later pieces: damage is said, and what stands behind it is read all the same.
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 
-#include "runtime/log_file.hpp"
+#include "runtime/log_pieces.hpp"
 
 namespace nacre::cli {
 
@@ -23,7 +23,7 @@ class ForgivingReader {
  private:
   void note_end();
   std::filesystem::path log_;
-  runtime::LogReader reader_;
+  runtime::PiecesReader reader_;
   int damaged_places_ = 0;
   std::int64_t torn_bytes_ = 0;
 };

@@ -77,6 +77,9 @@ void check_together(const runtime::LaunchOptions& options) {
   if (!options.only.empty() && options.resume.empty()) {
     throw InputError("nacre launch: --only joins a run: expected --resume RUN, its folder or a copy of it");
   }
+  if (!options.only.empty() && options.max_log_mb > 0) {
+    throw InputError("nacre launch: --max-log-mb belongs to the machine that records: expected it without --only");
+  }
   if (!options.only.empty() && !options.elsewhere.empty()) {
     throw InputError("nacre launch: expected either --only or --elsewhere, not both");
   }
@@ -99,6 +102,7 @@ struct RecordOptions {
   std::string log;
   int port = 0;
   std::string hosts = "local";
+  int max_log_mb = 0;
 };
 
 /// The first line on standard output tells the launcher that nothing published from now on is missed.
@@ -106,6 +110,7 @@ int record(const RecordOptions& options) {
   const runtime::Interrupts interrupts;
   runtime::RecorderOptions settings;
   settings.log = options.log;
+  settings.most_bytes = 1'000'000 * static_cast<std::int64_t>(options.max_log_mb);
   settings.url = runtime::bus_url(options.port, options.hosts == "lan");
   settings.report = [](runtime::LogLevel level, const std::string& text) {
     level >= runtime::LogLevel::warning ? warn(text) : remark(text);
@@ -115,6 +120,15 @@ int record(const RecordOptions& options) {
     check_standard_output();
   };
   return runtime::run_recorder(settings, [&] { return interrupts.any(); });
+}
+
+void add_max_log(CLI::App& command, int& max_log_mb) {
+  command
+      .add_option(
+          "--max-log-mb", max_log_mb,
+          "Megabytes after which run.lcm goes on in run-2.lcm, run-3.lcm, ..., each with the latest state first; "
+          "default: one file")
+      ->check(CLI::Range(1, 1'000'000));
 }
 
 }  // namespace
@@ -142,6 +156,7 @@ void add_launch(CLI::App& app, Action& action) {
           },
           "Seconds until a node that died is started again, the first time in a row; default: 0.5")
       ->check(CLI::Range(0.001, 30.0));
+  add_max_log(command, options->max_log_mb);
   command.add_option("--elsewhere", options->elsewhere,
                      "Node that is started on another machine (hosts = \"lan\"); repeatable");
   command.add_option("--debug", options->debug,
@@ -157,6 +172,7 @@ void add_record(CLI::App& app, Action& action) {
   command.add_option("--log", options->log, "LCM log to append to")->required();
   command.add_option("--port", options->port, "UDP port of the run")->required()->check(CLI::Range(1, 65535));
   command.add_option("--hosts", options->hosts, "local or lan")->check(CLI::IsMember({"local", "lan"}));
+  add_max_log(command, options->max_log_mb);
 }
 
 }  // namespace nacre::cli

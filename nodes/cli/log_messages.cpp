@@ -43,7 +43,7 @@ std::optional<LogMessage> LogMessages::next() {
   while (const auto record = reader_.next()) {
     ++losses_.records;
     const bool is_sent = record->channel.starts_with(runtime::kOutPrefix);
-    is_journal_ = is_journal_ || record->channel.starts_with('~');
+    is_journal_ = is_journal_ || (record->channel.starts_with('~') && record->channel != runtime::kPieceChannel);
     if (!is_sent && record->channel.starts_with('~')) {
       ++losses_.own_records;
       continue;

@@ -9,7 +9,7 @@
 #include "laboratory_view.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "output.hpp"
-#include "runtime/log_file.hpp"
+#include "runtime/log_pieces.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/convert.hpp"
@@ -29,7 +29,7 @@ void read_results(const std::filesystem::path& log, const std::function<void(con
   std::vector<std::string> results;
   try {
     if (!std::filesystem::exists(log)) return;
-    runtime::LogReader reader(log);
+    runtime::PiecesReader reader(log);
     while (auto record = reader.next()) {
       if (record->channel == "GAMUT") results.clear();
       if (record->channel == "SIMULATED") results.push_back(std::move(record->data));

@@ -23,6 +23,7 @@
 #include "processes.hpp"
 #include "runtime/endpoint.hpp"
 #include "runtime/journal.hpp"
+#include "runtime/log_pieces.hpp"
 #include "runtime/node_shell.hpp"
 #include "runtime/recorder.hpp"
 #include "runtime/replay.hpp"
@@ -536,6 +537,58 @@ TEST(Recorder, KeepsABurstOfEveryMessageOnTheBus) {
     const auto core = echo::make_core(node);
     const auto report = runtime::replay_bus_log(options.log, node, *core, echo::echo_functions());
     EXPECT_TRUE(report.equal) << node << ": " << report.difference;
+  }
+}
+
+/// `count` messages of the launcher, recorded in pieces of about 3 kB by a recorder that ends or, with `kill`, is
+/// killed.
+void record_messages(const runtime::RecorderOptions& options, EchoGame& game, int first, int count, bool kill) {
+  const pid_t recorder = ::fork();
+  if (recorder == 0) {
+    static std::atomic<bool> stop = false;
+    std::signal(SIGTERM, [](int) { stop = true; });
+    ::_exit(runtime::run_recorder(options, [] { return stop.load(); }));
+  }
+  wire::RoundSummary round;
+  const auto recorded = [&] {
+    std::set<int> rounds;
+    try {
+      for (runtime::PiecesReader reader(options.log); const auto record = reader.next();)
+        if (record->channel == "ROUND")
+          rounds.insert(wire::read<wire::RoundSummary>(wire::blank_header("ROUND", record->data)->payload)->round);
+    } catch (const InputError&) {  // is still being made
+    }
+    return static_cast<int>(rounds.size());
+  };
+  EXPECT_TRUE(game.watch(30, [&] {
+    for (round.round = first; round.round < first + count; ++round.round)
+      game.launcher().bus().publish({"ROUND", wire::write(round)});
+    return recorded() == first + count;
+  }));
+  ::kill(recorder, kill ? SIGKILL : SIGTERM);
+  int status = 0;
+  ::waitpid(recorder, &status, 0);
+}
+
+TEST(Recorder, GoesOnInPiecesThatBeginWithTheStateAndAreReadAsOne) {
+  const TemporaryFolder folder;
+  runtime::RecorderOptions options;
+  options.log = folder.path() / "run.lcm";
+  options.url = runtime::bus_url(test::test_port());
+  options.most_bytes = 3000;
+  EchoGame game;
+  record_messages(options, game, 0, 10, true);
+  const std::size_t pieces_before = runtime::pieces_of(options.log).size();
+  std::ofstream(runtime::pieces_of(options.log).back(), std::ios::app) << "torn";
+  record_messages(options, game, 10, 10, false);
+  const auto pieces = runtime::pieces_of(options.log);
+  EXPECT_GT(pieces_before, 1U);
+  EXPECT_GT(pieces.size(), pieces_before);
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    runtime::LogReader reader(pieces[i]);
+    EXPECT_EQ(reader.next()->channel, runtime::kPieceChannel);
+    EXPECT_EQ(reader.next()->channel, "ROUND") << pieces[i] << " begins with the state";
+    EXPECT_LT(std::filesystem::file_size(pieces[i]), 2 * 3000U);
   }
 }
 
