@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   fs::path scenario = "bench/soak/soak.toml", logs = "logs", out = "soak.csv";
   double minutes = 60.0, every_s = 10.0;
+  bool made_up = false;
 };
 
 /// One figure over the rounds of the game.
@@ -98,8 +99,10 @@ int play_and_watch(const Options& options) {
   Watch watch(options.out);
   const auto began = Clock::now();
   const auto passed_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
-  runtime::ChildProcess launcher({(runtime::this_program().parent_path() / "nacre").string(), "launch",
-                                  options.scenario.string(), "--logs", options.logs.string(), "--run", name});
+  const fs::path programs = runtime::this_program().parent_path();
+  runtime::ChildProcess launcher({(programs / "nacre").string(), "launch", options.scenario.string(), "--logs",
+                                  options.logs.string(), "--run", name, "--programs",
+                                  (options.made_up ? programs / "made_up" : programs).string()});
   double next_s = options.every_s;
   bool told_to_end = false;
   std::string last_lines;
@@ -138,6 +141,7 @@ int main(int argc, char** argv) {
   app.add_option("--every", options.every_s, "seconds between two looks")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--made-up", options.made_up, "Farm and laboratory make their results up: many rounds in little time");
   CLI11_PARSE(app, argc, argv);
   try {
     return play_and_watch(options);
