@@ -105,14 +105,14 @@ class State : public testing::Test {
 
 TEST_F(State, IsTheLatestOfEachKindAndTheWholeGamut) {
   for (int round = 0; round < 4; ++round) {
-    wire::AdoptedModel model;
-    model.round = round;
-    say("PARAMETERS", model);
+    wire::Proposal proposal;
+    proposal.round = round;
+    say("PROPOSAL", proposal);
     say("GAMUT", gamut(round, round < 2 ? -1 : round - 1));
   }
-  EXPECT_THAT(channels(), ElementsAre("GAMUT 1", "GAMUT 2", "PARAMETERS 3", "GAMUT 3"));
+  EXPECT_THAT(channels(), ElementsAre("GAMUT 1", "GAMUT 2", "PROPOSAL 3", "GAMUT 3"));
   say("GAMUT", gamut(1, -1));  // said again
-  EXPECT_THAT(channels(), ElementsAre("GAMUT 2", "PARAMETERS 3", "GAMUT 3", "GAMUT 1"));
+  EXPECT_THAT(channels(), ElementsAre("GAMUT 2", "PROPOSAL 3", "GAMUT 3", "GAMUT 1"));
 }
 
 TEST_F(State, AnOlderRoundReplacesNothing) {
