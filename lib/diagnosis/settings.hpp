@@ -18,8 +18,8 @@ namespace nacre::diagnosis {
 inline constexpr double kNameLevel = 0.003;
 
 struct DiagnosisSettings {
-  material::ParameterSet start;                                  ///< initial guess of the base fit
-  material::ParameterRanges ranges = material::thesis_ranges();  ///< moduli and ratios may leave them: CoordinateMap
+  material::ParameterSet start;                                   ///< initial guess of the base fit
+  material::ParameterRanges ranges = material::default_ranges();  ///< moduli and ratios may leave them: CoordinateMap
   tester::Fidelity fidelity = tester::Fidelity::full;
   int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;
