@@ -31,11 +31,11 @@ double range_of(std::span<const double> values) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  if (below + 1 >= values.size()) return values.back();
-  return std::lerp(values[below], values[below + 1], place - static_cast<double>(below));
+  const auto below = values.begin() + std::min(static_cast<std::ptrdiff_t>(place), std::ssize(values) - 1);
+  std::nth_element(values.begin(), below, values.end());
+  if (below + 1 == values.end()) return *below;
+  return std::lerp(*below, *std::min_element(below + 1, values.end()), place - std::floor(place));
 }
 
 std::vector<double> ranks_of(std::span<const double> values) {

@@ -96,7 +96,6 @@ Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
     : settings_(std::move(settings)),
       desk_(desk),
       run_(settings_.run_folder),
-      page_(settings_.page_folder),
       family_folder_(settings_.family_folder),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
 
@@ -132,7 +131,6 @@ Response Dashboard::handle(const Request& request) {
     const bool is_post = request.method == "POST";
     const auto& routes = is_post ? post_routes() : get_routes();
     if (const auto route = routes.find(request.path); route != routes.end()) return (this->*route->second)(request);
-    if (auto file = is_post ? std::nullopt : page_.find(request.path)) return *file;
     if ((is_post ? get_routes() : post_routes()).contains(request.path))
       return error_response(405, is_post ? "expected GET" : "expected POST");
     return error_response(404, "there is nothing here");
@@ -158,6 +156,20 @@ Response Dashboard::run(const Request&) {
                              .commit = settings_.commit,
                              .report = std::filesystem::exists(settings_.run_folder / "report.html"),
                              .user = settings_.user});
+}
+
+ListedRunRow Dashboard::listed() {
+  ListedRunRow row{.run = settings_.run_id,
+                   .scenario = settings_.scenario.name,
+                   .fidelity = settings_.scenario.fidelity,
+                   .rounds = settings_.scenario.rounds};
+  try {
+    row.data = run_.version();
+    enter_standing(row, *run_.record(), is_playing(desk_.nodes()));
+  } catch (const std::exception& error) {
+    row.problem = error.what();
+  }
+  return row;
 }
 
 Response Dashboard::live(const Request&) {
@@ -273,16 +285,17 @@ Response Dashboard::simulate(const Request& request) {
 }
 
 Response Dashboard::laboratory(const Request&) {
-  constexpr std::int64_t kLeastFresh_us = 500'000,
-                         kFreshPerCost = 10;  // a long journal is read for at most a tenth of the time
+  constexpr std::int64_t kFreshPerCost = 10;  // a growing run is read for at most a tenth of the time
   const std::lock_guard lock(desk_mutex_);
   const std::int64_t begun_us = runtime::steady_us();
   if (begun_us >= laboratory_fresh_until_us_) {
-    laboratory_ = wire::json_of(laboratory_row(desk_.laboratory()));
+    const auto laboratory = desk_.laboratory();
+    if (laboratory_of_ != laboratory) laboratory_ = row_response(laboratory_row(*laboratory)).body;
+    laboratory_of_ = laboratory;
     const std::int64_t now_us = runtime::steady_us();
-    laboratory_fresh_until_us_ = now_us + std::max(kLeastFresh_us, kFreshPerCost * (now_us - begun_us));
+    laboratory_fresh_until_us_ = now_us + kFreshPerCost * (now_us - begun_us);
   }
-  return json_response(laboratory_);
+  return {.body = laboratory_, .headers = {}};
 }
 
 Response Dashboard::diagnosis(const Request& request) {
@@ -343,18 +356,27 @@ Response Dashboard::report(const Request&) {
               {"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
 }
 
-Response Dashboard::delivery_response(Delivery delivery, const std::vector<std::string>& doubts) {
+Response Dashboard::delivery_response(const Answer& answer, const std::vector<std::string>& doubts) {
   laboratory_fresh_until_us_ = 0;
-  const int status = delivery == Delivery::unanswered ? 504 : delivery == Delivery::conflicting ? 409 : 200;
-  Json json = {{"answer", to_string(delivery)}};
+  Json json = {{"answer", to_string(answer.delivery)}};
   if (!doubts.empty()) json["doubts"] = doubts;
-  if (delivery == Delivery::unanswered)
-    json["error"] = "Not every node has confirmed it: is the game still running? Entering it again is safe.";
-  if (delivery == Delivery::conflicting)
-    json["error"] =
-        "The run already has another measurement of this name, and keeps it: enter yours under a new name, or review "
-        "the old one.";
-  return json_response(json, status);
+  switch (answer.delivery) {
+    case Delivery::accepted:
+    case Delivery::repeated:
+      return json_response(json);
+    case Delivery::conflicting:
+      json["error"] =
+          "The run already has another measurement of this name, and keeps it: enter yours under a new name, or review "
+          "the old one.";
+      return json_response(json, 409);
+    case Delivery::refused:
+      json["error"] = answer.refusal;
+      return json_response(json, 409);
+    case Delivery::unanswered:
+      break;
+  }
+  json["error"] = "Not every node has confirmed it: is the game still running? Entering it again is safe.";
+  return json_response(json, 504);
 }
 
 Response Dashboard::enter(const Request& request) {
@@ -386,7 +408,7 @@ Response Dashboard::group(const Request& request) {
         throw Refusal{400, fmt::format("{}: seed {} is not measured in both tests yet", family.name, seed.key())};
   const std::lock_guard lock(desk_mutex_);
   desk_.keep_grouping(family_folder_.path(), grouping);
-  return delivery_response(Delivery::accepted);
+  return delivery_response({});
 }
 
 std::string_view to_string(Delivery delivery) {
@@ -397,6 +419,8 @@ std::string_view to_string(Delivery delivery) {
       return "repeated";
     case Delivery::conflicting:
       return "conflicting";
+    case Delivery::refused:
+      return "refused";
     case Delivery::unanswered:
       break;
   }

@@ -12,7 +12,7 @@
 #include "dashboard/films.hpp"
 #include "dashboard/http.hpp"
 #include "dashboard/maps.hpp"
-#include "dashboard/page_files.hpp"
+#include "dashboard/runs_view.hpp"
 #include "game/scenario.hpp"
 #include "run/run.hpp"
 
@@ -20,7 +20,6 @@ namespace nacre::dashboard {
 
 struct DashboardSettings {
   std::filesystem::path run_folder;
-  std::filesystem::path page_folder;
   std::filesystem::path family_folder;  ///< of `nacre families`; need not exist
   std::string run_id, started, nacre_version, commit;
   std::string user;  ///< who enters things, unless the page says otherwise
@@ -34,6 +33,8 @@ class Dashboard {
   Dashboard(DashboardSettings settings, Desk& desk);
   /// Never throws: what is wrong comes back as a status with `{"error": ...}`.
   Response handle(const Request& request);
+  /// The run in a list of runs; never throws.
+  ListedRunRow listed();
 
  private:
   using Route = Response (Dashboard::*)(const Request&);
@@ -77,19 +78,19 @@ class Dashboard {
   bool is_by_game(const FractureRequest& fracture);
   Background::State made(const FractureRequest& fracture);
   Json simulation_state(const FractureRequest& fracture);
-  Response delivery_response(Delivery delivery, const std::vector<std::string>& doubts = {});
+  Response delivery_response(const Answer& answer, const std::vector<std::string>& doubts = {});
 
   DashboardSettings settings_;
   Desk& desk_;
-  std::mutex desk_mutex_;  ///< the desk serves one request at a time
-  Json laboratory_;        ///< as last read; reading a long journal takes a while
+  std::mutex desk_mutex_;                            ///< the desk serves one request at a time
+  std::shared_ptr<const Laboratory> laboratory_of_;  ///< what `laboratory_` was made of
+  std::string laboratory_;                           ///< JSON; of 10,000 specimens it takes a second
   std::int64_t laboratory_fresh_until_us_ = 0;
   run::Run run_;
   std::mutex rounds_mutex_;
   std::shared_ptr<const run::RunRecord> rounds_of_;  ///< the record that `rounds_` was made of
   std::optional<LiveSearch::Progress> rounds_search_;
-  std::string rounds_;                               ///< JSON; of 10,000 specimens it takes a while
-  PageFiles page_;
+  std::string rounds_;  ///< JSON; of 10,000 specimens it takes a while
   FamilyFolder family_folder_;
   Films films_;
   Background maps_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,15 @@ enum class Delivery {
   accepted,     ///< every node that listens has confirmed it
   repeated,     ///< the validation agent had it already
   conflicting,  ///< it has a specimen of this name with other content, which stays
+  refused,      ///< a node has it and will not use it
   unanswered,   ///< a node did not confirm it in time
 };
 std::string_view to_string(Delivery delivery);
+
+struct Answer {
+  Delivery delivery = Delivery::accepted;
+  std::string refusal = {};  ///< why it is refused and what to do, in sentences
+};
 
 /// A person's yes or no to a proposed design. Round -1: a design of the person's own, to be measured as well.
 struct Approval {
@@ -62,8 +69,8 @@ inline bool is_playing(const std::vector<NodeReport>& nodes) {
 class Desk {
  public:
   virtual ~Desk() = default;
-  /// May throw InputError, like all calls here.
-  virtual Laboratory laboratory() = 0;
+  /// The same object as long as nothing has changed. May throw InputError, like all calls here.
+  virtual std::shared_ptr<const Laboratory> laboratory() = 0;
   /// Nodes that have reported within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.
@@ -73,9 +80,9 @@ class Desk {
   /// What that search has simulated so far; empty for the rounds before.
   virtual run::Gamut searched(int round) = 0;
   // Entering: waits some seconds for the validation agent.
-  virtual Delivery enter(const measurement::SpecimenRecord& specimen) = 0;
-  virtual Delivery review(const SpecimenReview& review) = 0;
-  virtual Delivery decide(const Approval& approval) = 0;
+  virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
+  virtual Answer review(const SpecimenReview& review) = 0;
+  virtual Answer decide(const Approval& approval) = 0;
   /// Why a review or an approval would change nothing, as a sentence; nothing where it counts.
   virtual std::optional<std::string> against(const SpecimenReview& review) = 0;
   virtual std::optional<std::string> against(const Approval& approval) = 0;

@@ -8,11 +8,13 @@
 #include "dashboard/page_fields.hpp"
 #include "dashboard/rounds_view.hpp"
 #include "dashboard/run_view.hpp"
+#include "dashboard/runs_view.hpp"
 
 namespace nacre::dashboard {
 
 std::string page_types() {
   PageTypes types;
+  types.type_of<RunsRow>();
   types.type_of<RunRow>();
   types.type_of<LiveRow>();
   types.type_of<RoundsRow>();

@@ -71,8 +71,8 @@ int bound_port(httplib::Server& server, const ServerSettings& settings) {
 
 }  // namespace
 
-void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
-           const std::function<bool()>& stop) {
+void serve(const std::function<Response(const Request&)>& respond, const ServerSettings& settings,
+           const std::function<void(int port)>& ready, const std::function<bool()>& stop) {
   httplib::Server server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_payload_max_length(kMostBodyBytes);
@@ -99,9 +99,7 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
     send(*refusal, to);
     return httplib::Server::HandlerResponse::Handled;
   });
-  const auto handle = [&](const httplib::Request& from, httplib::Response& to) {
-    send(dashboard.handle(request_of(from)), to);
-  };
+  const auto handle = [&](const httplib::Request& from, httplib::Response& to) { send(respond(request_of(from)), to); };
   // The library's own refusals, such as a body that is too large, get a sentence as well.
   server.set_error_handler([](const httplib::Request&, httplib::Response& to) {
     if (!to.body.empty()) return;

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "dashboard/dashboard.hpp"
 #include "dashboard/guard.hpp"
 
 namespace nacre::dashboard {
@@ -20,9 +19,10 @@ struct ServerSettings {
   std::vector<std::string> further_hosts = {};  ///< names that a tunnel or a proxy keeps, with or without a port
 };
 
-/// Serves until `stop` returns true (called ten times a second). `ready` gets the port. Bodies have at most 4 MiB,
-/// requests slower than five seconds are cut off. Throws InputError when it cannot listen there.
-void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
-           const std::function<bool()>& stop);
+/// Serves what `respond` says, called from any number of threads, until `stop` returns true (called ten times a
+/// second). `ready` gets the port. Bodies have at most 4 MiB, requests slower than five seconds are cut off. Throws
+/// InputError when it cannot listen there.
+void serve(const std::function<Response(const Request&)>& respond, const ServerSettings& settings,
+           const std::function<void(int port)>& ready, const std::function<bool()>& stop);
 
 }  // namespace nacre::dashboard

@@ -58,23 +58,33 @@ double scatters_from_others(double value, const std::vector<double>& others, dou
   return std::abs(value - centre) / std::max(kMadOfNormal * median(distances), usual);
 }
 
-/// Compares the valid members of one group with each other.
+/// Area between two curves relative to that under them.
+double curve_distance(const tester::Curve& one, const tester::Curve& other) {
+  const double area = 0.5 * (tester::area_under(one) + tester::area_under(other));
+  return area > 0.0 ? tester::area_between(one, other) / area : 0.0;
+}
+
+/// Compares the valid members of one group with each other. Of n curves every pair is compared once: n^2 / 2 areas.
 class GroupComparison {
  public:
   GroupComparison(Members members, const ConsistencySettings& settings)
-      : members_(std::move(members)), settings_(settings), forward_(comparable_curves(members_)) {}
+      : members_(std::move(members)), settings_(settings), forward_(comparable_curves(members_)) {
+    for (const SpecimenRecord* member : members_) values_.push_back(value_of(*member));
+    for (const tester::Curve& curve : forward_) peaks_.push_back(peak_of(curve));
+    for (std::size_t i = 0; i < forward_.size(); ++i)
+      for (std::size_t k = i + 1; k < forward_.size(); ++k)
+        if (!forward_[i].empty() && !forward_[k].empty())
+          distances_.push_back({i, k, curve_distance(forward_[i], forward_[k])});
+  }
 
   std::vector<OutlierReason> reasons_against(std::size_t suspect) const {
     std::vector<OutlierReason> reasons;
     const tester::TestKind test = members_[suspect]->test;
-    std::vector<double> values, peaks;
-    for (const SpecimenRecord* member : members_) values.push_back(value_of(*member));
-    for (const tester::Curve& curve : forward_) peaks.push_back(peak_of(curve));
     if (test == tester::TestKind::modulus)
-      compare(suspect, "modulus", values, settings_.usual_modulus_scatter, reasons);
+      compare(suspect, "modulus", values_, settings_.usual_modulus_scatter, reasons);
     if (test == tester::TestKind::toughness)
-      compare(suspect, "toughness", values, settings_.usual_toughness_scatter, reasons);
-    compare(suspect, "peak", peaks, settings_.usual_peak_scatter, reasons);
+      compare(suspect, "toughness", values_, settings_.usual_toughness_scatter, reasons);
+    compare(suspect, "peak", peaks_, settings_.usual_peak_scatter, reasons);
     compare_curve(suspect, reasons);
     compare_path(suspect, reasons);
     std::stable_sort(reasons.begin(), reasons.end(),
@@ -100,21 +110,10 @@ class GroupComparison {
                                    ratio < 1.0 ? "below" : "above")});
   }
 
-  double curve_distance(std::size_t i, std::size_t k) const {
-    const double area = 0.5 * (tester::area_under(forward_[i]) + tester::area_under(forward_[k]));
-    return area > 0.0 ? tester::area_between(forward_[i], forward_[k]) / area : 0.0;
-  }
-
   void compare_curve(std::size_t suspect, std::vector<OutlierReason>& reasons) const {
-    if (forward_[suspect].empty()) return;
     std::vector<double> own, among_others;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (i == suspect || forward_[i].empty()) continue;
-      own.push_back(curve_distance(suspect, i));
-      for (std::size_t k = i + 1; k < members_.size(); ++k) {
-        if (k != suspect && !forward_[k].empty()) among_others.push_back(curve_distance(i, k));
-      }
-    }
+    for (const Pair& pair : distances_)
+      (pair.one == suspect || pair.other == suspect ? own : among_others).push_back(pair.distance);
     if (own.size() < 2) return;
     const double distance = median(own) / std::max(median(among_others), settings_.usual_curve_distance);
     if (distance <= settings_.far) return;
@@ -148,9 +147,15 @@ class GroupComparison {
         {"path", 0.0, fmt::format("its crack ran `{}`, that of {} others `{}`", own, common->second, common->first)});
   }
 
+  struct Pair {
+    std::size_t one, other;
+    double distance;
+  };
   Members members_;
   ConsistencySettings settings_;
   std::vector<tester::Curve> forward_;
+  std::vector<double> values_, peaks_;
+  std::vector<Pair> distances_;
 };
 
 /// The worst first: a noted path counts as much as the limit.

@@ -45,9 +45,8 @@ double area_under(const Curve& curve) {
 }
 
 double area_between(const Curve& a, const Curve& b) {
-  std::vector<double> strains = a.strain;
-  strains.insert(strains.end(), b.strain.begin(), b.strain.end());
-  std::sort(strains.begin(), strains.end());
+  std::vector<double> strains(a.size() + b.size());
+  std::ranges::merge(a.strain, b.strain, strains.begin());
   CurveReader reader_a(a), reader_b(b);
   double area = 0.0;
   for (std::size_t i = 1; i < strains.size(); ++i) {

@@ -78,15 +78,17 @@ std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const 
 
 std::string_view word(bool approved) { return approved ? "approved" : "rejected"; }
 
-/// Whether the validation agent has acknowledged it.
-bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedApproval& decision) {
+/// What became of it; also said on standard error where it does not count.
+Delivered send(const ApproveOptions& options, const RunAccess& run, const game::StatedApproval& decision) {
   wire::Approval message;
   message.round = decision.proposal_round;
   message.design = decision.design;
   message.approved = decision.approved;
   message.by = decision.by;
   message.why = decision.why;
-  return deliver(run, "approve", {"APPROVAL", wire::write(message)}, options.timeout_s) == 0;
+  const Delivered delivered = deliver(run, "approve", {"APPROVAL", wire::write(message)}, options.timeout_s);
+  say_delivered(delivered, options.timeout_s);
+  return delivered;
 }
 
 /// How far each design of the run has come, by name.
@@ -142,8 +144,9 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
       status = 1;
       continue;
     }
-    if (!send(options, run, decision)) return 1;
-    status = std::max(status, say_when_measured(run, design));
+    const Delivered delivered = send(options, run, decision);
+    if (!delivered.missing.empty()) return 1;
+    status = std::max(status, delivered.refusal ? 1 : say_when_measured(run, design));
   }
   return status;
 }
@@ -160,8 +163,13 @@ int decide(const ApproveOptions& options, const RunAccess& run, const game::Labo
       status = 1;
       continue;
     }
-    if (!send(options, run, decision)) return 1;
-    fmt::print("{} {}\n", design.name(), word(decision.approved));
+    const Delivered delivered = send(options, run, decision);
+    if (!delivered.missing.empty()) return 1;
+    if (delivered.refusal) {
+      status = 1;
+    } else {
+      fmt::print("{} {}\n", design.name(), word(decision.approved));
+    }
   }
   return status;
 }

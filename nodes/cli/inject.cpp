@@ -124,8 +124,9 @@ SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, cons
   const HeldMeasurements held = held_measurements(run);
   for (const std::string& hash : hashes) {
     const std::string& specimen = specimens.at(hash);
-    if (const auto reason = against_measurement(held, specimen, hash)) {
-      warn(*reason);
+    const auto reason = against_measurement(held, specimen, hash), refusal = endpoint->refusal_of(hash);
+    if (reason || refusal) {
+      warn(reason ? *reason : fmt::format("{}. {}", *refusal, advice_on_refused("MEASUREMENT")));
       delivery.conflicting.push_back(specimen);
       continue;
     }

@@ -42,9 +42,6 @@ game::PrintedSpecimen printed_of(const std::string& place, const std::string& la
   return {label, *named, *kind, orientation_deg, order_id};
 }
 
-/// A row of the record and the person who wrote it.
-using PrintedRow = std::pair<game::PrintedSpecimen, std::string>;
-
 std::vector<PrintedRow> read_printed(const RunAccess& run) {
   std::vector<PrintedRow> rows;
   const std::filesystem::path file = printed_file(run);
@@ -98,6 +95,7 @@ LaboratoryReader::LaboratoryReader(RunAccess run) : run_(std::move(run)), journa
 
 void LaboratoryReader::read_journal(const std::function<void(const std::string& payload)>& measured) {
   if (journal_.begins_anew()) {
+    view_ = nullptr;
     known_ = {};
     proposals_.clear();
     last_round_ = -1;
@@ -120,22 +118,26 @@ void LaboratoryReader::read_journal(const std::function<void(const std::string& 
     last_round_ = std::max(last_round_, round.round);
     known_.is_over = known_.is_over || round.last;
   };
-  journal_.read({{"PROPOSAL", each<wire::Proposal>(take_proposal)},
-                 {"MEASUREMENT",
-                  [&](const std::string& payload) {
+  const auto noted = [this](auto take) {
+    return [this, take](const std::string& payload) {
+      view_ = nullptr;
+      take(payload);
+    };
+  };
+  journal_.read({{"PROPOSAL", noted(each<wire::Proposal>(take_proposal))},
+                 {"MEASUREMENT", noted([&](const std::string& payload) {
                     each<wire::Measurement>(take_measurement)(payload);
                     if (measured) measured(payload);
-                  }},
-                 {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
-                 {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
-                {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
-                 {"FAMILY", each<wire::CalibratedFamily>(take_family)},
-                 {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
-                 {"ROUND", each<wire::RoundSummary>(take_round)}});
+                  })},
+                 {"REVIEW", noted([&](const std::string& payload) { take_review(payload, facts.book); })},
+                 {"APPROVAL", noted([&](const std::string& payload) { take_approval(payload, facts); })}},
+                {{"TEST_ORDER", noted(each<wire::TestOrder>(take_order))},
+                 {"FAMILY", noted(each<wire::CalibratedFamily>(take_family))},
+                 {"PARAMETERS", noted(each<wire::AdoptedModel>(take_model))},
+                 {"ROUND", noted(each<wire::RoundSummary>(take_round))}});
 }
 
-LaboratoryView LaboratoryReader::view(const std::function<void(const std::string& payload)>& measured) {
-  read_journal(measured);
+LaboratoryView LaboratoryReader::make_view() const {
   LaboratoryView view = known_;
   game::LaboratoryFacts& facts = view.facts;
   facts.replicates = run_.scenario.validation.replicates;
@@ -143,7 +145,7 @@ LaboratoryView LaboratoryReader::view(const std::function<void(const std::string
   // Later ones may be there: an agent that begins anew without its journal is offered all of them again.
   if (const auto later = proposals_.upper_bound(last_round_); later != proposals_.begin())
     view.open_proposal = std::prev(later)->second;
-  for (const auto& [specimen, by] : read_printed(run_)) facts.printed.push_back(specimen);
+  for (const auto& [specimen, by] : printed_) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);
   for (std::size_t i = 0; i < facts.orders.size(); ++i) {
@@ -152,8 +154,17 @@ LaboratoryView LaboratoryReader::view(const std::function<void(const std::string
   return view;
 }
 
+std::shared_ptr<const LaboratoryView> LaboratoryReader::view(
+    const std::function<void(const std::string& payload)>& measured) {
+  read_journal(measured);
+  std::vector<PrintedRow> printed = read_printed(run_);
+  if (view_ && printed == printed_) return view_;
+  printed_ = std::move(printed);
+  return view_ = std::make_shared<const LaboratoryView>(make_view());
+}
+
 LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(const std::string& payload)>& measured) {
-  return LaboratoryReader(run).view(measured);
+  return *LaboratoryReader(run).view(measured);
 }
 
 int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by) {

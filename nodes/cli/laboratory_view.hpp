@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/design_states.hpp"
@@ -32,17 +34,23 @@ struct LaboratoryView {
   bool is_over = false;                         ///< the last round is closed, and with it the family stage
 };
 
+/// A printed specimen and the person who wrote it down.
+using PrintedRow = std::pair<game::PrintedSpecimen, std::string>;
+
 /// A run whose laboratory is looked at again and again: only what was added to the journal is read.
 class LaboratoryReader {
  public:
   explicit LaboratoryReader(RunAccess run);
-  /// `measured` is handed the payload of every MEASUREMENT that is read, too. Throws InputError when the record of what
-  /// was printed cannot be read.
-  LaboratoryView view(const std::function<void(const std::string& payload)>& measured = {});
+  /// The same object as long as nothing has changed. `measured` is handed the payload of every MEASUREMENT that is
+  /// read, too. Throws InputError when the record of what was printed cannot be read.
+  std::shared_ptr<const LaboratoryView> view(const std::function<void(const std::string& payload)>& measured = {});
 
  private:
   void read_journal(const std::function<void(const std::string& payload)>& measured);
+  LaboratoryView make_view() const;
   RunAccess run_;
+  std::shared_ptr<const LaboratoryView> view_;  ///< the last one; nullptr: what is known has changed since
+  std::vector<PrintedRow> printed_;             ///< as recorded when it was made
   run::JournalMessages journal_;
   LaboratoryView known_;  ///< what the journal says, without settings, orders' progress and what was printed
   std::map<int, wire::Proposal> proposals_;

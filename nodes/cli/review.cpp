@@ -95,7 +95,8 @@ std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& 
   message.valid = review.valid;
   message.by = options.by;
   message.why = review.why;
-  if (deliver(run, "review", {"REVIEW", wire::write(message)}, options.timeout_s) != 0) return std::nullopt;
+  const Delivered delivered = deliver(run, "review", {"REVIEW", wire::write(message)}, options.timeout_s);
+  if (say_delivered(delivered, options.timeout_s) != 0) return std::nullopt;
   return Reviewed{review, revision};
 }
 

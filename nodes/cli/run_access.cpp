@@ -62,13 +62,27 @@ std::unique_ptr<runtime::Endpoint> speak(const RunAccess& run, const std::string
   return std::move(*endpoint);
 }
 
-int deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s) {
+Delivered deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s) {
   const auto endpoint = speak(run, name);
   const auto hash = endpoint->offer(message);
   if (!hash) throw InputError(hash.error().message);
-  if (endpoint->deliver(timeout_s)) return 0;
-  say_unanswered(endpoint->waiting_for(*hash), timeout_s);
-  return 1;
+  endpoint->deliver(timeout_s);
+  Delivered delivered{.missing = endpoint->waiting_for(*hash)};
+  if (const auto why = endpoint->refusal_of(*hash))
+    delivered.refusal = fmt::format("{}. {}", *why, advice_on_refused(message.channel));
+  return delivered;
+}
+
+std::string advice_on_refused(std::string_view channel) {
+  if (channel == "MEASUREMENT")
+    return "What the run has stays: hand yours in under a new name, or review the one that is there.";
+  return "What the run has stays: `nacre designs` and the dashboard's laboratory show how far each design is.";
+}
+
+int say_delivered(const Delivered& delivered, double timeout_s) {
+  if (delivered.refusal) remark(*delivered.refusal);
+  if (!delivered.missing.empty()) say_unanswered(delivered.missing, timeout_s);
+  return delivered.refusal || !delivered.missing.empty() ? 1 : 0;
 }
 
 void say_unanswered(const std::set<std::string>& nodes, double timeout_s) {

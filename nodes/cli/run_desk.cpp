@@ -17,6 +17,7 @@
 
 namespace nacre::cli {
 
+using dashboard::Answer;
 using dashboard::Delivery;
 
 constexpr double kPatience_s = 8.0;
@@ -58,9 +59,13 @@ RunAccess RunDesk::now() const {
   return run;
 }
 
-dashboard::Laboratory RunDesk::laboratory() {
-  LaboratoryView view = reader_.view();
-  return {std::move(view.facts), std::move(view.open_proposal)};
+std::shared_ptr<const dashboard::Laboratory> RunDesk::laboratory() {
+  const auto view = reader_.view();
+  if (read_ != view)
+    laboratory_ =
+        std::make_shared<const dashboard::Laboratory>(dashboard::Laboratory{view->facts, view->open_proposal});
+  read_ = view;
+  return laboratory_;
 }
 
 void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) {
@@ -68,29 +73,34 @@ void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vect
   write_file_atomically(folder / "families.toml", families::to_toml(families));
 }
 
-Delivery RunDesk::hand_in(const runtime::Message& message) {
-  if (!is_playing(feed_.nodes())) return Delivery::unanswered;
-  return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Delivery::accepted : Delivery::unanswered;
+Answer RunDesk::hand_in(const runtime::Message& message) {
+  if (!is_playing(feed_.nodes())) return {Delivery::unanswered};
+  const Delivered delivered = deliver(now(), "dashboard", message, kPatience_s);
+  if (delivered.refusal) return {Delivery::refused, *delivered.refusal};
+  return {delivered.missing.empty() ? Delivery::accepted : Delivery::unanswered};
 }
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
   std::vector<std::string> doubts = measurement::doubts_about(specimen);
-  for (const std::string& doubt : cli::doubts_about(run_, reader_.view(), {&specimen, 1})) doubts.push_back(doubt);
+  for (const std::string& doubt : cli::doubts_about(run_, *reader_.view(), {&specimen, 1})) doubts.push_back(doubt);
   return doubts;
 }
 
-Delivery RunDesk::enter(const measurement::SpecimenRecord& specimen) {
+Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
   const auto known = hashes_by_specimen(run_);
   const auto same_name = known.find(specimen.specimen);
   if (same_name == known.end()) return hand_in(message);
-  if (same_name->second != wire::message_hash(message.channel, message.payload)) return Delivery::conflicting;
+  if (same_name->second != wire::message_hash(message.channel, message.payload)) return {Delivery::conflicting};
   // The validation agent has it, the analyser may have been away.
-  return hand_in(message) == Delivery::accepted ? Delivery::repeated : Delivery::unanswered;
+  Answer answer = hand_in(message);
+  if (answer.delivery == Delivery::accepted) answer.delivery = Delivery::repeated;
+  return answer;
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& review) {
-  const game::MeasurementBook book = reader_.view().facts.book;
+  const auto view = reader_.view();
+  const game::MeasurementBook& book = view->facts.book;
   const auto specimens = book.specimens();
   if (std::none_of(specimens.begin(), specimens.end(),
                    [&](const auto& each) { return each.specimen == review.specimen; }))
@@ -98,7 +108,7 @@ std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& rev
   return review.valid ? book.against_validity(review.specimen) : std::nullopt;
 }
 
-Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
+Answer RunDesk::review(const dashboard::SpecimenReview& review) {
   wire::Review message;
   message.specimen = review.specimen;
   message.revision = highest_revisions(run_)[review.specimen] + 1;
@@ -111,11 +121,11 @@ Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
 std::optional<std::string> RunDesk::against(const dashboard::Approval& approval) {
   const Result<pattern::Design> design = pattern::design_from_name(approval.design);
   if (!design) return design.error().message;
-  return game::why_void(reader_.view().facts, {approval.round, *design, approval.approved, approval.by, approval.why},
+  return game::why_void(reader_.view()->facts, {approval.round, *design, approval.approved, approval.by, approval.why},
                         run_.scenario.validation.approval);
 }
 
-Delivery RunDesk::decide(const dashboard::Approval& approval) {
+Answer RunDesk::decide(const dashboard::Approval& approval) {
   wire::Approval message;
   message.round = approval.round;
   message.design = expected(pattern::design_from_name(approval.design));  // against() has read it

@@ -11,25 +11,27 @@ namespace nacre::cli {
 class RunDesk : public dashboard::Desk {
  public:
   explicit RunDesk(RunAccess run);
-  dashboard::Laboratory laboratory() override;
+  std::shared_ptr<const dashboard::Laboratory> laboratory() override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   std::optional<dashboard::LiveSearch::Progress> search() override { return feed_.search().progress(); }
   run::Gamut searched(int round) override { return feed_.search().gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
-  dashboard::Delivery enter(const measurement::SpecimenRecord& specimen) override;
-  dashboard::Delivery review(const dashboard::SpecimenReview& review) override;
-  dashboard::Delivery decide(const dashboard::Approval& approval) override;
+  dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
+  dashboard::Answer review(const dashboard::SpecimenReview& review) override;
+  dashboard::Answer decide(const dashboard::Approval& approval) override;
   std::optional<std::string> against(const dashboard::SpecimenReview& review) override;
   std::optional<std::string> against(const dashboard::Approval& approval) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) override;
 
  private:
   /// Sends it, if anybody is there to hear it.
-  dashboard::Delivery hand_in(const runtime::Message& message);
+  dashboard::Answer hand_in(const runtime::Message& message);
   /// The run on the port that it plays on now.
   RunAccess now() const;
   RunAccess run_;
   LaboratoryReader reader_;
+  std::shared_ptr<const LaboratoryView> read_;  ///< what `laboratory_` was made of
+  std::shared_ptr<const dashboard::Laboratory> laboratory_;
   dashboard::LiveFeed feed_;
 };
 

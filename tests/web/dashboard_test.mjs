@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { browser, leave, photograph, visit } from "./browser.mjs";
-import { endAll, openDashboard, playGame, ROOT, until, withManyPatterns } from "./games.mjs";
+import { endAll, openDashboard, playGame, renamed, ROOT, until, withManyPatterns } from "./games.mjs";
 
 const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
 const live = await openDashboard(game.folder);
@@ -19,7 +19,7 @@ after(async () => {
 const PUBLISHED = "577fffe9fffdef";
 const CURVE = "strain,stress_pa\n0,0\n0.01,1e7\n0.02,1.8e7\n0.03,9e6\n0.035,0\n";
 
-const view = (on, name) => on.locator(`nav a[href="#${name}"]`).click();
+const view = (on, name) => on.locator(`nav a[href$="/${name}"]`).click();
 const pointedAt = (on) => on.locator(".catcher").getAttribute("data-pointed");
 /** Presses an arrow key until a point has come that it can point at; its design. */
 const pointWithKeys = (on) =>
@@ -153,6 +153,41 @@ test("every replicate of a turned order is entered as a turned one", async () =>
   for (const name of ["value", "specimen"]) assert.equal(await other.locator(`input[name="${name}"]`).inputValue(), "");
   assert.equal(await other.locator('select[name="order"]').inputValue(), "");
   assert.deepEqual(other.troubles, []);
+  await leave(other);
+});
+
+test("a late refusal is shown with its reason, and what was typed stays", async () => {
+  const why = "An APPROVAL changes nothing: it is ordered already. What the run has stays.";
+  const refusal = { status: 409, json: { answer: "refused", error: why } };
+  const of = { design: PUBLISHED, test: "modulus", orientation_deg: 0, batch: "", points: 0, by: "", why: "", note: "" };
+  const proposed = { design: PUBLISHED, modulus_pa: 1e9, toughness_pa: 1e5, reason: "" };
+  const other = await visitWith(`${live.url}#laboratory`, {
+    "/api/laboratory": (work) => ({
+      ...work,
+      proposal: { round: 0, simulations: 1, designs: [proposed] },
+      designs: [],
+      specimens: [{ ...of, specimen: "late", modulus_pa: 1e9, toughness_pa: null, valid: true }],
+    }),
+  });
+  for (const path of ["approval", "measurement", "review"])
+    await other.route(`**/api/${path}`, (route) => route.fulfill(refusal));
+  const said = (title) => other.locator(".panel", { hasText: title }).locator(".notice.bad", { hasText: why });
+  await other.getByRole("button", { name: "Approve" }).click();
+  await said("Proposals of round 0").waitFor();
+  await other.getByPlaceholder("key of 14 hex digits").fill(PUBLISHED);
+  await other.getByRole("button", { name: "Have it measured" }).click();
+  await until(async () => (await other.getByPlaceholder("key of 14 hex digits").inputValue()) === PUBLISHED, 5, "it stays");
+  await other.locator('input[name="specimen"]').fill("late");
+  await other.locator('input[name="pattern"]').fill(PUBLISHED);
+  await other.locator('input[name="value"]').fill("1");
+  await other.getByRole("button", { name: "Add measurement" }).click();
+  await said("Enter a measurement").waitFor();
+  assert.equal(await other.locator('input[name="specimen"]').inputValue(), "late");
+  await other.getByRole("button", { name: "review late" }).click();
+  await other.locator("tr", { hasText: "late" }).locator("input").fill("slipped");
+  await other.getByRole("button", { name: "not valid" }).click();
+  await said("Review (1 specimens)").waitFor();
+  assert.deepEqual(other.troubles.filter((t) => !/status of 409/.test(t)), []);
   await leave(other);
 });
 
@@ -660,6 +695,148 @@ test("the explorer breaks what lies between patterns", async () => {
   assert.ok(words.some((w) => /^[ET] +[\d.]+$/.test(w)) && words.some((w) => /^[\d.]+ [GM]Pa$/.test(w)), words.join());
   assert.deepEqual(explorer.troubles, []);
   await leave(explorer);
+  await finished.close();
+});
+
+test("every view, round, design and specimen has an address, which opens by itself", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(finished.url);
+  await on.locator(".unit-button").first().click();
+  await on.locator(".design .eyebrow", { hasText: "proposed in round 1" }).waitFor();
+  assert.match(on.url(), /#\/run\/game\/game\/design\/[0-9a-f]{14}\/model\/1$/);
+  const design = /design\/([0-9a-f]{14})/.exec(on.url())[1];
+  const named = (title) => until(async () => (await on.title()) === title, 10, `the title ${title}`);
+  await named(`${design} · Game · game · nacre`);
+  await on.reload();
+  await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+  await on.locator(".design .key", { hasText: design }).waitFor();
+
+  await on.locator(".toggles fieldset").first().locator(".toggle", { hasText: "0" }).click();
+  assert.match(on.url(), /\/game\/round\/0,1\/design\//);
+  await on.goBack();
+  await until(async () => !(await on.locator(".toggle", { hasText: "0" }).locator("input").isChecked()), 10, "round 0 is off");
+  await view(on, "diagnosis");
+  await on.locator(".verdict h2").waitFor();
+  await on.getByRole("button", { name: "round 1" }).click();
+  await named("round 1 · Diagnosis · game · nacre");
+  await on.goBack();
+  await named("Diagnosis · game · nacre");
+  await on.goBack();
+  await on.locator(".design .key", { hasText: design }).waitFor();
+  await on.goForward();
+  await on.locator(".verdict h2").waitFor();
+
+  await view(on, "laboratory");
+  await on.getByRole("link", { name: "by-hand-1" }).click();
+  await on.locator('tr[aria-current="true"]', { hasText: "by-hand-1" }).waitFor();
+  await on.reload();
+  const row = on.locator('tr[aria-current="true"]', { hasText: "by-hand-1" });
+  await row.waitFor();
+  await until(async () => {
+    const box = await row.boundingBox();
+    return box.y > 0 && box.y < 900;
+  }, 10, "the specimen is in sight");
+  await named("by-hand-1 · Laboratory · game · nacre");
+  await view(on, "families");
+  await on.locator(".unit-button").first().click();
+  await on.reload();
+  await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+  assert.match(await on.locator(".design .eyebrow").innerText(), /variant|seed/);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+  await finished.close();
+});
+
+test("an address without anything behind it says so, and leads on", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(finished.url);
+  const says = async (hash, sentence) => {
+    await on.goto(`${finished.url}${hash}`);
+    await on.locator(".wait, .notice", { hasText: sentence }).waitFor();
+  };
+  await says("#/run/other/game", "There is no run “other” on this page: it shows game.");
+  await says("#/run/game/nonsense", "There is no view “nonsense”.");
+  await says("#nonsense", "There is no view “nonsense”.");
+  await says("#/nonsense", "There is nothing at this address.");
+  await says("#/run/game/nodes/round/1", "The view “Nodes” shows no “round”.");
+  await says("#/run/game/game/round/7", "There is no round 7 here: this run has rounds 0 to 1.");
+  await says("#/run/game/game/round/x", "There is no round x here");
+  await says("#/run/game/game/design/soap", "“soap” cannot be shown. design: ");
+  await says("#/run/game/diagnosis/round/7", "Round 7 has no diagnosis");
+  await says("#/run/game/laboratory/specimen/nobody%20there", "This run has no specimen “nobody there”.");
+  await says("#/run/game/explorer/map/gamut%2F9", "This run has no map “gamut/9”.");
+  await says("#/run/%E0%A4%A/game", "There is no run");
+  await on.getByRole("link", { name: "Show what there is" }).click();
+  await on.locator(".catcher").waitFor();
+  assert.deepEqual(on.troubles.filter((t) => !/status of 400/.test(t)), []);
+  await leave(on);
+  await finished.close();
+});
+
+test("several runs are listed and compared, and one that cannot be read says why", async () => {
+  const others = [renamed(game.folder, "second"), renamed(game.folder, "begun", true), join(game.folder, "films")];
+  const several = await openDashboard([game.folder, ...others]);
+  const on = await visit(several.url);
+  const rows = on.getByRole("region", { name: "All runs" }).locator("tbody tr");
+  await rows.nth(3).waitFor();
+  const said = await rows.allInnerTexts();
+  assert.match(said[0], /^game\s+web\s+tiny\s+finished\s+1 of 1\s+[\d.]+ ± [\d.]+\s+[\d.]+/);
+  assert.match(said[2], /^begun\s+web\s+tiny\s+stopped\s+none of 1\s+–\s+–/);
+  assert.match(said[3], /^films\s+–\s+–\s+cannot be read[\s\S]*manifest\.json/);
+  await on.locator(".trends canvas").nth(2).waitFor();
+  assert.equal(await on.title(), "Runs · nacre");
+  assert.equal(await on.locator(".run-keys .toggle").count(), 3);
+  for (const panel of [on.locator(".trend").first(), on.locator(".panel", { hasText: "Measured fronts" })])
+    await panel.locator("text=begun has nothing to show here so far.").waitFor();
+  const words = await textsOf(on, readFileSync(await (await Promise.all([on.waitForEvent("download"), on.getByLabel("fronts as SVG").click()]))[0].path()));
+  for (const name of ["game", "second"]) assert.ok(words.includes(name), words.join());
+  const csv = readFileSync(await (await Promise.all([on.waitForEvent("download"), on.getByLabel("gap as CSV").click()]))[0].path(), "utf8");
+  assert.match(csv, /^round,gap_gpa_mpa_game,gap_gpa_mpa_second,gap_gpa_mpa_begun\n0,/);
+  await photograph(on, "runs", true);
+  for (const name of ["game", "second"]) await on.locator(".run-keys .toggle", { hasText: name }).click();
+  await on.locator(".nothing", { hasText: "No run has measured a pattern in both tests yet." }).waitFor();
+  await on.locator(".run-keys .toggle", { hasText: "begun" }).click();
+  await on.locator("text=Every run is switched off").waitFor();
+
+  await on.getByRole("link", { name: "second" }).click();
+  await on.locator("h1", { hasText: "second" }).waitFor();
+  await on.locator(".standing", { hasText: "finished after round 1" }).waitFor();
+  const [asked] = await Promise.all([on.waitForRequest("**/api/laboratory"), view(on, "laboratory")]);
+  assert.match(asked.url(), /\/runs\/second\/api\/laboratory$/);
+  await on.getByRole("link", { name: "all 4 runs" }).click();
+  await rows.nth(3).waitFor();
+  await on.getByRole("link", { name: "begun" }).click();
+  await on.locator("text=No pattern has been simulated yet").waitFor();
+  await on.goBack();
+  await rows.nth(3).waitFor();
+  await on.goto(`${several.url}#/run/films/game`);
+  await on.locator(".wait", { hasText: "manifest.json" }).waitFor();
+  assert.deepEqual(on.troubles.filter((t) => !/status of 503/.test(t)), []);
+  await leave(on);
+  const phone = await visit(several.url, { width: 375, height: 740, touch: true });
+  await phone.locator(".trends canvas").nth(2).waitFor();
+  assert.ok((await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375, "the list is wider than the phone");
+  await photograph(phone, "phone-runs", true);
+  await leave(phone);
+  await several.close();
+});
+
+test("what is not there is not promised once the game is over", async () => {
+  const finished = await openDashboard(game.folder);
+  const none = (r) => ({ ...r, verdict: null });
+  const changes = { "/api/rounds": (said) => ({ ...said, rounds: said.rounds.map(none) }) };
+  const on = await visitWith(`${finished.url}#diagnosis`, changes);
+  await on.locator(".wait", { hasText: "No diagnosis was made: the game ended before" }).waitFor();
+  await leave(on);
+  const open = (r) => ({ ...none(r), summary: r.summary && { ...r.summary, last: false } });
+  const live = await visitWith(`${finished.url}#diagnosis`, {
+    "/api/rounds": (said) => ({ ...said, rounds: said.rounds.map(open) }),
+  });
+  await live.locator(".wait", { hasText: "There is no diagnosis yet" }).waitFor();
+  await leave(live);
+  const off = await visitWith(`${finished.url}#diagnosis`, { ...changes, "/api/run": (run) => ({ ...run, diagnosis: false }) });
+  await off.locator(".wait", { hasText: "The scenario turns the diagnosis off" }).waitFor();
+  await leave(off);
   await finished.close();
 });
 

@@ -1,7 +1,7 @@
 // Real games and dashboards, ended with the test.
 
 import { spawn, execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -56,9 +56,9 @@ export async function playGame(scenario, name) {
   return game;
 }
 
-/** `nacre dashboard` of a run, with the address of its page. */
+/** `nacre dashboard` of a run, or of a list of them, with the address of its page. */
 export async function openDashboard(run, ...options) {
-  const dashboard = start(NACRE, ["dashboard", run, "--port", "0", "--page", join(BUILD, "web"), ...options]);
+  const dashboard = start(NACRE, ["dashboard", ...[run].flat(), "--port", "0", "--page", join(BUILD, "web"), ...options]);
   dashboard.url = await until(
     () => dashboard.said.match(/http:\S+/)?.[0],
     20,
@@ -69,6 +69,16 @@ export async function openDashboard(run, ...options) {
     return dashboard.ended;
   };
   return dashboard;
+}
+
+/** A copy of a finished run that goes by the name; `isNew`: nothing has happened in it yet. */
+export function renamed(run, name, isNew = false) {
+  const copy = join(folder, name);
+  execFileSync("cp", ["-r", run, copy]);
+  const manifest = join(copy, "manifest.json");
+  writeFileSync(manifest, JSON.stringify({ ...JSON.parse(readFileSync(manifest, "utf8")), run_id: name }));
+  if (isNew) for (const part of ["run.db", "run.db-wal", "run.db-shm", "nodes"]) rmSync(join(copy, part), { recursive: true, force: true });
+  return copy;
 }
 
 /** A GAMUT of `count` random patterns: `sound`, another one of `samples` patterns, with its content replaced. */

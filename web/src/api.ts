@@ -93,6 +93,17 @@ async function accepted(response: Response): Promise<Response> {
   throw new Refusal(response.status, reason || response.statusText || `The server refused: status ${response.status}.`);
 }
 
+let opened = "";
+
+/** The run that is looked at: requests, files and drafts are its own. Empty: none is. */
+export const openedRun = () => opened;
+export function openRun(name: string): void {
+  opened = name;
+}
+
+/** The server's address of something of a run. */
+export const ofRun = (path: string, run = opened) => (run ? `/runs/${encodeURIComponent(run)}${path}` : path);
+
 export type Query = Record<string, string | number>;
 
 export function address(path: string, query: Query): string {
@@ -100,15 +111,15 @@ export function address(path: string, query: Query): string {
   return parameters.size > 0 ? `${path}?${parameters}` : path;
 }
 
-export async function get<T>(path: string, query: Query = {}): Promise<T> {
-  return (await accepted(await fetch(address(path, query)))).json();
+export async function get<T>(path: string, query: Query = {}, run = opened): Promise<T> {
+  return (await accepted(await fetch(ofRun(address(path, query), run)))).json();
 }
 
 export async function getBytes(path: string, query: Query = {}): Promise<ArrayBuffer> {
-  return (await accepted(await fetch(address(path, query)))).arrayBuffer();
+  return (await accepted(await fetch(ofRun(address(path, query))))).arrayBuffer();
 }
 
 export async function post<T>(path: string, body: unknown): Promise<T> {
   const headers = { "Content-Type": "application/json", "X-Nacre": "1" };
-  return (await accepted(await fetch(path, { method: "POST", headers, body: JSON.stringify(body) }))).json();
+  return (await accepted(await fetch(ofRun(path), { method: "POST", headers, body: JSON.stringify(body) }))).json();
 }

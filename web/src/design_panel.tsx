@@ -3,24 +3,14 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { address, get, getBytes, post, problemOf, type Design, type Query, type Round, type Simulation } from "./api";
+import type { Chosen } from "./chosen";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
 import { duration, gpa, MPA, mpa, percent } from "./numbers";
-import { MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
+import { Awaited, MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
-
-/** A design that was chosen, and where. `model`: the round, or the family, whose model simulates it; `map`: of
- *  `nacre families`, which may have another model of that family than the game. */
-export interface Chosen {
-  design: string;
-  model: number | string;
-  map?: string;
-  modulus: number;
-  toughness: number;
-  of: string;
-}
 
 const WAIT_MS = 500;
 
@@ -181,9 +171,7 @@ function predictionOf(chosen: Chosen, design: Design | null): Values | undefined
 function simulationOf(chosen: Chosen, design: Design | null): Values {
   const byModel = design?.simulated.find((s) => s.round === chosen.model);
   if (byModel) return byModel;
-  if (chosen.of.startsWith("proposed")) return {};
-  if (!chosen.of.startsWith("measured") && !Number.isNaN(chosen.modulus))
-    return { modulus_pa: chosen.modulus, toughness_pa: chosen.toughness };
+  if (chosen.isSimulated) return { modulus_pa: chosen.modulus, toughness_pa: chosen.toughness };
   return (typeof chosen.model === "number" && design?.simulated.at(-1)) || {};
 }
 
@@ -282,6 +270,12 @@ function FilmWait({ state }: { state: FilmState }) {
 /** A chosen design, read again whenever the run's `data` change. */
 export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | null }) {
   const { value: design, problem } = useReading<Design>("/api/design", { design: chosen.design }, data);
+  if (!design) return <Awaited problem={problem && `“${chosen.design}” cannot be shown. ${problem}`} />;
+  return <DesignRead chosen={chosen} design={design} problem={problem} />;
+}
+
+/** The same, once the run has said what it knows of the design. */
+function DesignRead({ chosen, design, problem }: { chosen: Chosen; design: Design; problem: string }) {
   const [frame, setFrame] = useState(0);
   const state = useFilm(chosen);
   return (
@@ -300,14 +294,14 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
         </div>
       </div>
       <Problem text={problem} />
-      {design?.proposals.map((p) => (
+      {design.proposals.map((p) => (
         <Reason
           key={p.round}
           before={`Proposed in round ${p.round}, predicted E ${gpa(p.modulus_pa)} GPa, T ${mpa(p.toughness_pa)} MPa.`}
           text={p.reason}
         />
       ))}
-      {design?.violation && <p class="reason">Outside the design space: {design.violation}</p>}
+      {design.violation && <p class="reason">Outside the design space: {design.violation}</p>}
       <CurveChart design={design} film={state.film} frame={frame} />
       {state.film ? <FilmPlayer film={state.film} onFrame={setFrame} /> : <FilmWait state={state} />}
       {state.film && (
@@ -362,6 +356,7 @@ const FIRST: Chosen = {
   model: "start",
   modulus: NaN,
   toughness: NaN,
+  isSimulated: false,
   of: "base material",
 };
 
@@ -379,7 +374,13 @@ export function FirstFracture({ data }: { data: string | null }) {
 }
 
 /** Designs to choose from before anything is chosen: what a round proposed. */
-export function NewestProposals({ round, choose }: { round: Round | null; choose: (c: Chosen) => void }) {
+export function NewestProposals({
+  round,
+  choose,
+}: {
+  round: Round | null;
+  choose: (c: Pick<Chosen, "design" | "model">) => void;
+}) {
   return (
     <>
       <p class="quiet">Point at the gamut to see a pattern. Click, or press Enter, to see it break.</p>
@@ -390,15 +391,7 @@ export function NewestProposals({ round, choose }: { round: Round | null; choose
             <UnitButton
               design={p.design}
               values={[gpa(p.modulus_pa), mpa(p.toughness_pa)]}
-              choose={() =>
-                choose({
-                  design: p.design,
-                  model: round.round,
-                  modulus: p.modulus_pa,
-                  toughness: p.toughness_pa,
-                  of: `proposed in round ${round.round}`,
-                })
-              }
+              choose={() => choose({ design: p.design, model: round.round })}
             />
           </li>
         ))}

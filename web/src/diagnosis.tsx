@@ -1,11 +1,11 @@
 // What the simulation gets wrong, and why: the analyser's diagnosis of each round.
 
 import type { ComponentChildren } from "preact";
-import { useState } from "preact/hooks";
 import type { CandidateEffect, Diagnosis, Effect, Experiment, Revealed, Rounds } from "./api";
 import { figure, percent, words } from "./numbers";
-import { Name, Problem, Table, Unit } from "./parts";
+import { Awaited, Name, Nowhere, Problem, Table, Unit } from "./parts";
 import { useReading } from "./reading";
+import { addressOf, type Looking } from "./route";
 import { saveCsv } from "./save";
 import { TERMS } from "./terms";
 
@@ -290,22 +290,41 @@ function DiagnosisOf({ round, rounds, tabs }: { round: number; rounds: Rounds; t
   );
 }
 
-export function DiagnosisView({ rounds, isOn }: { rounds: Rounds; isOn: boolean }) {
+/** Why there is none; "yet" only where one may come. */
+function whyNone(isOn: boolean, isOver: boolean): string {
+  if (!isOn) return "The scenario turns the diagnosis off ([diagnosis] enabled = false).";
+  return isOver
+    ? "No diagnosis was made: the game ended before proposed designs were measured."
+    : "There is no diagnosis yet: the first one follows the first measurements of proposed designs.";
+}
+
+export function DiagnosisView({
+  rounds,
+  isRead,
+  isOn,
+  isOver,
+  looking: { at, look },
+}: {
+  rounds: Rounds;
+  /** Whether the rounds are known. */
+  isRead: boolean;
+  isOn: boolean;
+  isOver: boolean;
+  looking: Looking;
+}) {
   const diagnosed = rounds.rounds.filter((r) => r.verdict).map((r) => r.round);
-  const [picked, setPicked] = useState<number | null>(null);
-  const round = picked ?? diagnosed.at(-1);
-  if (round === undefined)
-    return (
-      <p class="awaited wait">
-        {isOn
-          ? "There is no diagnosis yet: the first one follows the first measurements of proposed designs."
-          : "The scenario turns the diagnosis off."}
-      </p>
-    );
+  const round = at.round ? Number(at.round) : diagnosed.at(-1);
+  if (!isRead) return <Awaited problem="" />;
+  if (round === undefined || diagnosed.length === 0) return <p class="awaited wait">{whyNone(isOn, isOver)}</p>;
+  if (!diagnosed.includes(round)) {
+    const there = diagnosed.length > 1 ? `rounds ${diagnosed.join(", ")}` : `round ${diagnosed[0]}`;
+    const why = `Round ${at.round} has no diagnosis: there is one of ${there}.`;
+    return <Nowhere why={why} link={addressOf("diagnosis")} />;
+  }
   const tabs = (
     <div class="tabs small" role="group" aria-label="round">
       {diagnosed.map((r) => (
-        <button type="button" key={r} aria-pressed={r === round} onClick={() => setPicked(r)}>
+        <button type="button" key={r} aria-pressed={r === round} onClick={() => look({ round: String(r) })}>
           round {r}
         </button>
       ))}

@@ -1,15 +1,17 @@
 // Maps of patterns: similar patterns are near, colour is modulus or toughness. A click shows a fracture, a drag goes
 // between patterns.
 
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import { get, problemOf, type Maps, type PatternMap, type Rounds } from "./api";
-import { DesignBody, type Chosen } from "./design_panel";
+import { chosenOnMap, type Chosen } from "./chosen";
+import { DesignBody } from "./design_panel";
 import { MapChart, type Coloured } from "./map_chart";
 import { useBetween, type Blend, type Place } from "./map_places";
 import { MechanismTable } from "./mechanism_table";
 import { percent } from "./numbers";
-import { Awaited, MaterialKey, Problem, Unit } from "./parts";
+import { Awaited, MaterialKey, Nowhere, Problem, Unit } from "./parts";
 import { AGAIN_MS, useReading } from "./reading";
+import { addressOf, type Looking } from "./route";
 
 const LOOK_MS = 400;
 
@@ -106,7 +108,7 @@ function MapWait({ progress }: { progress: number | null }) {
 }
 
 /** Patterns around a place, and what lies between them. */
-function BlendCard({ blend, open }: { blend: Blend; open: (design: string, index: number | null) => void }) {
+function BlendCard({ blend, open }: { blend: Blend; open: (design: string) => void }) {
   const { map, corners, weights, between, problem } = blend;
   return (
     <>
@@ -129,7 +131,7 @@ function BlendCard({ blend, open }: { blend: Blend; open: (design: string, index
         )}
         <div>
           {between?.pattern && (
-            <button type="button" onClick={() => open(between.pattern!, null)}>
+            <button type="button" onClick={() => open(between.pattern!)}>
               Break it
             </button>
           )}
@@ -143,53 +145,44 @@ function BlendCard({ blend, open }: { blend: Blend; open: (design: string, index
   );
 }
 
-/** What somebody has chosen on one map. */
-interface Visit {
-  id: string;
-  place: Place | null;
-  chosen: Chosen | null;
+/** The place on the map `id` that somebody has gone to; on another one there is none yet. */
+function usePlaceOn(id: string): [Place | null, (place: Place | null) => void] {
+  const [kept, setKept] = useState<{ id: string; place: Place | null }>({ id, place: null });
+  return [kept.id === id ? kept.place : null, (place) => setKept({ id, place })];
 }
 
-/** The visit to the map `id`; on another one nothing is chosen yet. */
-function useVisit(id: string): [Visit, (more: Partial<Visit>) => void] {
-  const [kept, setKept] = useState<Visit>({ id, place: null, chosen: null });
-  const of = (visit: Visit) => (visit.id === id ? visit : { id, place: null, chosen: null });
-  return [of(kept), (more) => setKept((before) => ({ ...of(before), ...more }))];
-}
-
-/** Whose model simulates what is chosen. */
-type Whose = Pick<Chosen, "model" | "map">;
-
-/** The choice that a click on a pattern of the map makes. */
-const chosenOn = (map: PatternMap, index: number, whose: Whose): Chosen => ({
-  design: map.pattern[index],
-  ...whose,
-  modulus: map.modulus_pa[index] ?? NaN,
-  toughness: map.toughness_pa[index] ?? NaN,
-  of: map.source[index] === "gamut" ? `gamut of round ${whose.model}` : map.source[index],
-});
-
-const chosenBetween = (design: string, whose: Whose): Chosen => ({
-  design,
-  ...whose,
-  modulus: NaN,
-  toughness: NaN,
-  of: "between patterns of the map",
-});
-
-export function Explorer({ rounds, data, theme }: { rounds: Rounds; data: string | null; theme: string }) {
+export function Explorer({
+  rounds,
+  data,
+  theme,
+  isOver,
+  looking,
+}: {
+  rounds: Rounds;
+  data: string | null;
+  theme: string;
+  isOver: boolean;
+  looking: Looking;
+}) {
   const known = rounds.rounds.map((r) => `${r.round}:${r.gamut_count}`).join();
   const { value: maps, problem } = useReading<Maps>("/api/maps", {}, known);
-  const [picked, setPicked] = useState<string | null>(null);
   if (!maps) return <Awaited problem={problem} />;
   const ids = [...maps.families.flatMap((f) => f.map_ids), ...maps.gamuts];
   const newest = maps.families[0]?.map_ids[0] ?? maps.gamuts.at(-1);
-  const id = picked && ids.includes(picked) ? picked : newest;
-  if (!id) return <p class="awaited wait">There is no gamut yet: the map of its best patterns appears here.</p>;
+  const id = looking.at.map ?? newest;
+  if (!id)
+    return (
+      <p class="awaited wait">
+        {isOver
+          ? "This game has no gamut, and so no map."
+          : "There is no gamut yet: the map of its best patterns appears here."}
+      </p>
+    );
+  if (!ids.includes(id)) return <Nowhere why={`This run has no map “${id}”.`} link={addressOf("explorer")} />;
   return (
     <>
       <Problem text={problem} />
-      <MapView maps={maps} id={id} pick={setPicked} data={data} theme={theme} />
+      <MapView maps={maps} id={id} looking={looking} data={data} theme={theme} />
     </>
   );
 }
@@ -197,30 +190,30 @@ export function Explorer({ rounds, data, theme }: { rounds: Rounds; data: string
 function MapView({
   maps,
   id,
-  pick,
+  looking: { at, look },
   data,
   theme,
 }: {
   maps: Maps;
   id: string;
-  pick: (id: string) => void;
+  looking: Looking;
   data: string | null;
   theme: string;
 }) {
   const [coloured, setColoured] = useState<Coloured>("toughness");
-  const [{ place, chosen }, setVisit] = useVisit(id);
+  const [place, setPlace] = usePlaceOn(id);
   const { map, progress, problem } = useMap(id);
   const blend = useBetween(map, place);
   const [of, which] = id.split("/");
   const family = of === "gamut" ? null : of;
-  const whose: Whose = family ? { model: family, map: id } : { model: Number(which) };
+  const whose: Pick<Chosen, "model" | "map"> = family ? { model: family, map: id } : { model: Number(which) };
+  const chosen = useMemo(() => chosenOnMap(at.design, map, whose), [at.design, map, id]);
   // Who has chosen something stays on the map when the gamut of another round comes.
-  const visit = (more: Partial<Visit>) => {
-    pick(id);
-    setVisit(more);
+  const goTo = (next: Place | null) => {
+    setPlace(next);
+    if (at.map !== id) look({ ...at, map: id });
   };
-  const open = (design: string, index: number | null) =>
-    visit({ chosen: map && index !== null ? chosenOn(map, index, whose) : chosenBetween(design, whose) });
+  const open = (design: string) => look({ map: id, design });
   const isBetween = blend !== null && blend.corners.length > 1;
   const mechanisms = maps.families.find((f) => f.name === family)?.mechanisms ?? [];
   return (
@@ -229,7 +222,7 @@ function MapView({
         <section class="panel gamut">
           <div class="panel-head">
             <h2>Explorer</h2>
-            <Choices maps={maps} id={id} pick={pick} coloured={coloured} setColoured={setColoured} />
+            <Choices maps={maps} id={id} pick={(map) => look({ map })} coloured={coloured} setColoured={setColoured} />
           </div>
           <p class="quiet">
             Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag
@@ -242,7 +235,7 @@ function MapView({
               map={map}
               coloured={coloured}
               place={place}
-              setPlace={(to) => visit({ place: to })}
+              setPlace={goTo}
               blend={blend}
               open={open}
               theme={theme}

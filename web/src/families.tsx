@@ -3,7 +3,8 @@
 
 import { useMemo, useState } from "preact/hooks";
 import type { Families, Family, FamilyDesign, Maps, Rounds } from "./api";
-import { DesignPanel, type Chosen } from "./design_panel";
+import { chosenInFamilies } from "./chosen";
+import { DesignPanel } from "./design_panel";
 import { Grouping } from "./family_grouping";
 import { familyVariable, PREDICTED, seriesOf, spotsOf, type Shown } from "./family_points";
 import { DesignTable, ErrorTable, SubfamilyTable, worseThanGlobal } from "./family_tables";
@@ -13,6 +14,7 @@ import { figure, GPA, MPA } from "./numbers";
 import { Awaited, Problem, UnitButton } from "./parts";
 import { PointChart } from "./point_chart";
 import { useGamuts, useReading } from "./reading";
+import type { Looking } from "./route";
 import { newestModel } from "./rounds";
 
 /** What the view shows, and which models not to trust. */
@@ -56,11 +58,15 @@ export function FamiliesView({
   data,
   theme,
   run,
+  isOver,
+  looking: { at, look },
 }: {
   rounds: Rounds;
   data: string | null;
   theme: string;
   run: string;
+  isOver: boolean;
+  looking: Looking;
 }) {
   const reading = useReading<Families>("/api/families", {}, data);
   const subfamilies = useReading<Maps>("/api/maps", {}, data);
@@ -69,7 +75,6 @@ export function FamiliesView({
   const { gamuts, problem } = useGamuts(wanted);
   const [hidden, setHidden] = useState<Set<string>>(new Set());
   const [variants, setVariants] = useState(true);
-  const [chosen, setChosen] = useState<Chosen | null>(null);
   const all = useMemo<Shown[]>(() => {
     if (!families) return [];
     if (families.stage.length === 0)
@@ -93,21 +98,22 @@ export function FamiliesView({
         : [],
     [shown, variants],
   );
+  const chosen = useMemo(
+    () => chosenInFamilies(at, spots, gamuts, newest),
+    [at.design, at.model, spots, gamuts, newest],
+  );
+  const choose = ({ design, model }: { design: string; model: number | string }) =>
+    look({ design, model: String(model) });
   if (!families) return <Awaited problem={reading.problem} />;
   if (all.length === 0)
     return (
       <p class="awaited wait">
-        No pattern has been measured in both tests yet: families of the best designs appear here.
+        {isOver
+          ? "No pattern was measured in both tests: there are no families."
+          : "No pattern has been measured in both tests yet: families of the best designs appear here."}
       </p>
     );
-  const open = (family: Family, design: FamilyDesign) =>
-    setChosen({
-      design: design.design,
-      model: family.name,
-      modulus: design.family_model.modulus_pa ?? NaN,
-      toughness: design.family_model.toughness_pa ?? NaN,
-      of: `${family.name}: ${design.is_seed ? "seed" : "variant"}`,
-    });
+  const open = (family: Family, { design }: FamilyDesign) => choose({ design, model: family.name });
   const flip = (name: string) => {
     const next = new Set(hidden);
     if (!next.delete(name)) next.add(name);
@@ -148,7 +154,7 @@ export function FamiliesView({
               clouds={clouds}
               spots={spots}
               chosen={chosen}
-              choose={setChosen}
+              choose={choose}
               table={() => ({
                 heading: ["family", "what", "pattern", "modulus_pa", "toughness_pa"],
                 rows: shown.flatMap((f) => [
@@ -191,7 +197,7 @@ export function FamiliesView({
                       <UnitButton
                         design={s.design}
                         values={[figure(s.x), figure(s.y)]}
-                        choose={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
+                        choose={() => choose(s)}
                       />
                     </li>
                   ))}

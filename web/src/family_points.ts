@@ -85,9 +85,11 @@ export function seriesOf(rounds: Rounds, families: Shown[], variants: boolean): 
 }
 
 /** A point of a family, or of none, and what it stands for. */
-interface FamilySpot extends Spot {
+export interface FamilySpot extends Spot {
   family: string | null;
   role: string;
+  /** Whether its E and T are of the family's model. */
+  isSimulated: boolean;
 }
 
 export const PREDICTED = "variant, predicted";
@@ -101,7 +103,10 @@ export function spotsOf(rounds: Rounds, families: Shown[], newest: number): Fami
     family: string | null,
     role: string,
     model: number | string,
-  ) => spots.push({ x, y, design, family, role, of: family ? `${family}: ${role}` : role, model });
+  ) => {
+    const of = family ? `${family}: ${role}` : role;
+    spots.push({ x, y, design, family, role, of, model, isSimulated: role === PREDICTED });
+  };
   for (const family of families) {
     const model = family.stage ? family.name : newest;
     for (const d of family.stage?.designs ?? []) {

@@ -1,197 +1,69 @@
 // The game: gamut and fronts by round, one design at a time, and hypervolume, gap and errors by round.
 
 import { useMemo, useState } from "preact/hooks";
-import type { Errors, Measured, Rounds } from "./api";
-import { axis, basis, ChartBox, type Option } from "./chart";
+import type { Measured, Rounds } from "./api";
+import { chosenInGame } from "./chosen";
 import { roundColour, themeColour } from "./colour";
-import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel, type Chosen } from "./design_panel";
+import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel } from "./design_panel";
 import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
-import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
-import { Problem, Table } from "./parts";
+import { figure, GPA, MPA, percent, withError } from "./numbers";
+import { NoSuchRound, Problem, Table } from "./parts";
 import { useGamuts } from "./reading";
+import { addressOf, type Looking } from "./route";
 import { lastProposing, newestModel } from "./rounds";
+import { closedRounds, CSV, FIGURES, pointsOf, type FigureName } from "./run_figures";
 import { AREA, TERMS } from "./terms";
+import { TrendChart } from "./trend_chart";
 
-/** A line over rounds: its name on the screen and in the file, a colour, and a value per round. */
-interface Trend {
-  name: string;
-  csv: string;
-  colour: string;
-  dashed?: boolean;
-  value: (round: Rounds["rounds"][number]) => number | null | undefined;
-  error?: (round: Rounds["rounds"][number]) => number | null;
-  csvOfError?: string;
-}
-
-function TrendChart({
-  title,
-  name,
-  unit,
-  rounds,
-  trends,
-  hint,
-  empty,
-  logarithmic,
-}: {
-  title: string;
-  /** What the values mean, as a tooltip. */
-  hint: string;
-  /** Why there is no value, where there is none. */
-  empty: string;
-  name: string;
-  unit: string;
-  rounds: Rounds;
-  trends: Trend[];
-  logarithmic?: boolean;
-}) {
-  const closed = rounds.rounds.filter((r) => r.summary);
-  const option = useMemo<Option>(
-    () => ({
-      ...basis({ grid: { left: 52, right: 14, top: 12, bottom: 40 } }),
-      xAxis: axis("round", { min: 0, max: Math.max(1, closed.length - 1), minInterval: 1, nameGap: 24 }),
-      // Errors of the first rounds are many times those of the last.
-      yAxis: axis(unit, {
-        ...(logarithmic ? { type: "log", logBase: 10 } : { min: 0 }),
-        nameGap: 38,
-        axisLabel: {
-          color: themeColour("quiet"),
-          fontSize: 11,
-          formatter: (v: number) => tick(logarithmic ? 100 * v : v),
-        },
-      }),
-      series: trends.flatMap((trend) => {
-        const points = closed
-          .map((r) => [r.round, trend.value(r)])
-          .filter(([, v]) => v !== null && v !== undefined && (!logarithmic || v > 0));
-        const bars = trend.error
-          ? closed
-              .filter((r) => trend.value(r))
-              .map((r) => [
-                [r.round, trend.value(r)! - trend.error!(r)!],
-                [r.round, trend.value(r)! + trend.error!(r)!],
-              ])
-          : [];
-        return [
-          {
-            type: "line",
-            name: trend.name,
-            data: points,
-            symbol: "circle",
-            symbolSize: 7,
-            itemStyle: { color: trend.colour },
-            lineStyle: { color: trend.colour, width: 2, type: trend.dashed ? "dashed" : "solid" },
-          },
-          ...bars.map((ends) => ({
-            type: "line",
-            data: ends,
-            symbol: "none",
-            silent: true,
-            lineStyle: { color: trend.colour, width: 1.2, opacity: 0.7 },
-          })),
-        ];
-      }),
-    }),
-    [rounds, trends],
-  );
-  return (
-    <section class="panel trend">
-      <h3>
-        <span class="term" title={hint}>
-          {title}
-        </span>
-      </h3>
-      <ul class="keys">
-        {trends.map((t) => (
-          <li key={t.name}>
-            <span class={t.dashed ? "line dashed" : "line"} style={{ color: t.colour }} />
-            {t.name}
-          </li>
-        ))}
-      </ul>
-      {closed.length === 0 ? (
-        <p class="awaited">No round is complete yet.</p>
-      ) : (
-        <ChartBox
-          name={name}
-          label={`${title} by round`}
-          empty={empty}
-          option={option}
-          height={190}
-          table={() => ({
-            heading: ["round", ...trends.flatMap((t) => (t.csvOfError ? [t.csv, t.csvOfError] : [t.csv]))],
-            rows: closed.map((r) => [
-              r.round,
-              ...trends.flatMap((t) => (t.error ? [t.value(r), t.error(r)] : [t.value(r)])),
-            ]),
-          })}
-        />
-      )}
-    </section>
-  );
-}
-
-/** Names of columns in the files, the same wherever they are written. */
-const CSV = {
-  gamut: "gamut_hypervolume_gpa_mpa",
-  measured: "measured_hypervolume_gpa_mpa",
-  hypervolumeError: "hypervolume_error_gpa_mpa",
-  gap: "gap_gpa_mpa",
-  predictionE: "modulus_error_held_out",
-  predictionT: "toughness_error_held_out",
-  afterE: "modulus_error_after",
-  afterT: "toughness_error_after",
-};
-
-/** The value; null in a round before anything was measured. */
-const ofMeasured = (r: Rounds["rounds"][number], value: number) =>
-  r.summary!.measured_hypervolume_staircase > 0 ? value : null;
-
-const someE = (e: Errors | null) => (e && e.n_modulus > 0 ? e.modulus_mean : null);
-const someT = (e: Errors | null) => (e && e.n_toughness > 0 ? e.toughness_mean : null);
-
-/** Rank correlation, from three designs on: of two it means nothing. */
-const rankT = (e: Errors | null) => (e && e.n_toughness >= 3 ? e.toughness_spearman : null);
-
-function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
+function Trends({ rounds, theme, isOver }: { rounds: Rounds; theme: string; isOver: boolean }) {
+  const closed = useMemo(() => closedRounds(rounds), [rounds]);
+  const numbers = useMemo(() => closed.map((r) => r.round), [closed]);
+  const unmeasured = isOver
+    ? "No proposed design was measured in this game."
+    : "Known once proposed designs have been measured.";
   const trends = useMemo(() => {
     const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
     return {
       hypervolume: [
-        { name: "predicted", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume_staircase },
+        {
+          name: "predicted",
+          csv: CSV.predictedHypervolume,
+          colour: sim,
+          points: pointsOf(closed, "predictedHypervolume"),
+        },
         {
           name: "measured",
-          csv: CSV.measured,
+          csv: CSV.measuredHypervolume,
           colour: meas,
-          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume_staircase),
-          error: (r) => ofMeasured(r, r.summary!.hypervolume_error),
+          points: pointsOf(closed, "measuredHypervolume", "hypervolumeError"),
           csvOfError: CSV.hypervolumeError,
         },
-      ] as Trend[],
-      gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => ofMeasured(r, r.summary!.gap) }] as Trend[],
+      ],
+      gap: [{ name: "gap", csv: CSV.gap, colour: homo, points: pointsOf(closed, "gap") }],
       errors: [
         {
           name: TERMS.modulusError.heading,
-          csv: CSV.predictionE,
+          csv: CSV.modulusError,
           colour: sim,
-          value: (r) => someE(r.summary!.held_out),
+          points: pointsOf(closed, "modulusError"),
         },
         {
           name: TERMS.toughnessError.heading,
-          csv: CSV.predictionT,
+          csv: CSV.toughnessError,
           colour: meas,
-          value: (r) => someT(r.summary!.held_out),
+          points: pointsOf(closed, "toughnessError"),
         },
         {
           name: TERMS.toughnessFit.heading,
-          csv: CSV.afterT,
+          csv: CSV.toughnessFit,
           colour: meas,
           dashed: true,
-          value: (r) => (r.round > 0 ? someT(r.summary!.after) : null),
+          points: pointsOf(closed, "toughnessFit").map((p) => (p.round > 0 ? p : { ...p, value: null })),
         },
-      ] as Trend[],
+      ],
     };
-  }, [theme]);
+  }, [closed, theme]);
   return (
     <div class="trends">
       <TrendChart
@@ -200,25 +72,25 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
         empty="There is no gamut yet."
         name="hypervolume"
         unit={AREA}
-        rounds={rounds}
+        rounds={numbers}
         trends={trends.hypervolume}
       />
       <TrendChart
         title="Gap to the laboratory"
         hint={TERMS.gap.hint}
-        empty="Known once proposed designs have been measured."
+        empty={unmeasured}
         name="gap"
         unit={AREA}
-        rounds={rounds}
+        rounds={numbers}
         trends={trends.gap}
       />
       <TrendChart
         title="Errors of the model"
         hint="Of designs that were predicted before they were measured, and of designs that the model was fitted to."
-        empty="Known once proposed designs have been measured."
+        empty={unmeasured}
         name="errors"
         unit="%"
-        rounds={rounds}
+        rounds={numbers}
         trends={trends.errors}
         logarithmic
       />
@@ -299,30 +171,35 @@ function Toggles({
   );
 }
 
+/** The rounds that an address names; until it does, that of the newest gamut: the rounds before it would hide it. */
+function roundsShown(round: string | undefined, { rounds }: Rounds): Set<number> {
+  if (round) return new Set(round === NONE ? [] : round.split(",").map(Number));
+  const newest = rounds.filter((r) => r.gamut_count > 0).at(-1);
+  return new Set(newest ? [newest.round] : []);
+}
+
+/** How an address says that no round is shown. */
+const NONE = "none";
+
 export function Game({
   rounds,
   data,
   theme,
   playing,
+  isOver,
+  looking: { at, look },
 }: {
   rounds: Rounds;
   playing: boolean;
+  isOver: boolean;
   data: string | null;
   theme: "light" | "dark";
+  looking: Looking;
 }) {
-  const [picked, setPicked] = useState<Set<number> | null>(null);
-  // Until somebody picks, the newest gamut: the rounds before it would hide it.
-  const shown = useMemo(
-    () =>
-      picked ??
-      new Set(
-        rounds.rounds
-          .filter((r) => r.gamut_count > 0)
-          .slice(-1)
-          .map((r) => r.round),
-      ),
-    [picked, rounds],
-  );
+  const shown = useMemo(() => roundsShown(at.round, rounds), [at.round, rounds]);
+  const setShown = (next: Set<number>) => look({ ...at, round: [...next].sort((a, b) => a - b).join() || NONE });
+  const choose = ({ design, model }: { design: string; model: number | string }) =>
+    look({ ...at, design, model: String(model) });
   const [layers, setLayers] = useState<Layers>({
     cloud: true,
     fronts: true,
@@ -330,12 +207,17 @@ export function Game({
     measured: true,
     mixtures: true,
   });
-  const [chosen, setChosen] = useState<Chosen | null>(null);
   const wanted = rounds.rounds
     .filter((r) => shown.has(r.round))
     .map((r) => ({ name: String(r.round), count: r.gamut_count, which: { round: r.round } }));
   const { gamuts, problem } = useGamuts(wanted);
+  const chosen = useMemo(() => chosenInGame(at, rounds, gamuts), [at.design, at.model, rounds, gamuts]);
   const visible = [...shown].map((round) => gamuts.get(String(round))).filter((g): g is Gamut => g !== undefined);
+  const unknown = data === null ? [] : [...shown].filter((n) => !rounds.rounds.some((r) => r.round === n));
+  if (unknown.length > 0)
+    return (
+      <NoSuchRound rounds={rounds.rounds.map((r) => r.round)} wanted={at.round!} link={addressOf("game")} />
+    );
   const beginning = lastProposing(rounds) === null;
   const newest = rounds.rounds.at(-1);
   const searched = playing && newest && newest.gamut_count > 0 && newest.proposals.length === 0 ? newest : null;
@@ -346,7 +228,7 @@ export function Game({
           <section class="panel gamut">
             <div class="panel-head">
               <h2>Gamut</h2>
-              <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
+              <Toggles rounds={rounds} shown={shown} setShown={setShown} layers={layers} setLayers={setLayers} />
             </div>
             <p class="quiet">
               A point is a pattern: how stiff (E) and how tough (T). A staircase is a Pareto front: no other pattern is
@@ -360,17 +242,17 @@ export function Game({
               empty={whyEmpty(rounds, wanted, visible)}
               layers={layers}
               chosen={chosen}
-              choose={setChosen}
+              choose={choose}
               theme={theme}
             />
           </section>
-          <Trends rounds={rounds} theme={theme} />
+          <Trends rounds={rounds} theme={theme} isOver={isOver} />
         </div>
         <DesignPanel chosen={chosen} data={data}>
           {beginning ? (
             <FirstFracture data={data} />
           ) : (
-            <NewestProposals round={lastProposing(rounds)} choose={setChosen} />
+            <NewestProposals round={lastProposing(rounds)} choose={choose} />
           )}
         </DesignPanel>
       </div>
@@ -380,15 +262,8 @@ export function Game({
       <section class="panel">
         <MeasuredTable
           measured={rounds.measured}
-          choose={(m) =>
-            setChosen({
-              design: m.design,
-              model: newestModel(rounds),
-              modulus: m.modulus_pa,
-              toughness: m.toughness_pa,
-              of: `measured in round ${m.round}`,
-            })
-          }
+          isOver={isOver}
+          choose={(m) => choose({ design: m.design, model: newestModel(rounds) })}
         />
       </section>
     </>
@@ -396,7 +271,8 @@ export function Game({
 }
 
 function RoundTable({ rounds }: { rounds: Rounds }) {
-  const closed = rounds.rounds.filter((r) => r.summary);
+  const closed = closedRounds(rounds);
+  const figureOf = (name: FigureName) => ({ csv: CSV[name], value: FIGURES[name] });
   return (
     <Table
       name="rounds"
@@ -408,69 +284,42 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
         { ...TERMS.round, show: (r) => r.round, value: (r) => r.round },
         {
           ...TERMS.predictedHypervolume,
-          csv: CSV.gamut,
-          show: (r) => figure(r.summary!.gamut_hypervolume_staircase),
-          value: (r) => r.summary!.gamut_hypervolume_staircase,
+          ...figureOf("predictedHypervolume"),
+          show: (r) => figure(FIGURES.predictedHypervolume(r)),
         },
         {
           ...TERMS.measuredHypervolume,
-          csv: CSV.measured,
-          show: ({ summary }) =>
-            summary!.measured_hypervolume_staircase > 0
-              ? withError(summary!.measured_hypervolume_staircase, summary!.hypervolume_error)
-              : "–",
-          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume_staircase),
+          ...figureOf("measuredHypervolume"),
+          show: (r) => withError(FIGURES.measuredHypervolume(r) ?? NaN, r.summary.hypervolume_error),
         },
-        { heading: CSV.hypervolumeError, value: (r) => ofMeasured(r, r.summary!.hypervolume_error) },
-        {
-          ...TERMS.gap,
-          csv: CSV.gap,
-          show: (r) => figure(ofMeasured(r, r.summary!.gap)),
-          value: (r) => ofMeasured(r, r.summary!.gap),
-        },
-        {
-          ...TERMS.modulusError,
-          csv: CSV.predictionE,
-          show: (r) => percent(someE(r.summary!.held_out)),
-          value: (r) => someE(r.summary!.held_out),
-        },
-        {
-          ...TERMS.toughnessError,
-          csv: CSV.predictionT,
-          show: (r) => percent(someT(r.summary!.held_out)),
-          value: (r) => someT(r.summary!.held_out),
-        },
-        {
-          ...TERMS.toughnessRank,
-          csv: "toughness_spearman_held_out",
-          show: (r) => figure(rankT(r.summary!.held_out), 2),
-          value: (r) => rankT(r.summary!.held_out),
-        },
-        {
-          ...TERMS.modulusFit,
-          csv: CSV.afterE,
-          show: (r) => percent(someE(r.summary!.after)),
-          value: (r) => someE(r.summary!.after),
-        },
-        {
-          ...TERMS.toughnessFit,
-          csv: CSV.afterT,
-          show: (r) => percent(someT(r.summary!.after)),
-          value: (r) => someT(r.summary!.after),
-        },
+        { heading: CSV.hypervolumeError, value: FIGURES.hypervolumeError },
+        { ...TERMS.gap, ...figureOf("gap"), show: (r) => figure(FIGURES.gap(r)) },
+        { ...TERMS.modulusError, ...figureOf("modulusError"), show: (r) => percent(FIGURES.modulusError(r)) },
+        { ...TERMS.toughnessError, ...figureOf("toughnessError"), show: (r) => percent(FIGURES.toughnessError(r)) },
+        { ...TERMS.toughnessRank, ...figureOf("toughnessRank"), show: (r) => figure(FIGURES.toughnessRank(r), 2) },
+        { ...TERMS.modulusFit, ...figureOf("modulusFit"), show: (r) => percent(FIGURES.modulusFit(r)) },
+        { ...TERMS.toughnessFit, ...figureOf("toughnessFit"), show: (r) => percent(FIGURES.toughnessFit(r)) },
         {
           ...TERMS.equilibrium,
           csv: "decided_by",
           words: true,
-          show: (r) => `${r.summary!.equilibrium ? "yes" : "no"}: ${r.summary!.decided_by}`,
-          value: (r) => r.summary!.decided_by,
+          show: (r) => `${r.summary.equilibrium ? "yes" : "no"}: ${r.summary.decided_by}`,
+          value: (r) => r.summary.decided_by,
         },
       ]}
     />
   );
 }
 
-function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m: Measured) => void }) {
+function MeasuredTable({
+  measured,
+  isOver,
+  choose,
+}: {
+  measured: Measured[];
+  isOver: boolean;
+  choose: (m: Measured) => void;
+}) {
   const sorted = [...measured].sort((a, b) => b.toughness_pa - a.toughness_pa);
   return (
     <Table
@@ -478,7 +327,7 @@ function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m:
       caption="Measured patterns"
       rows={sorted}
       rowKey={(m) => m.design}
-      empty="No pattern has been measured in both tests yet."
+      empty={`No pattern ${isOver ? "was" : "has been"} measured in both tests${isOver ? "" : " yet"}.`}
       columns={[
         {
           ...TERMS.design,

@@ -4,7 +4,7 @@ import { useMemo } from "preact/hooks";
 import type { Rounds } from "./api";
 import type { Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
-import type { Chosen } from "./design_panel";
+import type { Chosen } from "./chosen";
 import { keyAt, staircase, type Gamut } from "./gamut";
 import { GPA, MPA } from "./numbers";
 import { cloudSeries, PointChart, type Spot } from "./point_chart";
@@ -158,7 +158,7 @@ export function GamutChart({
   empty: string;
   layers: Layers;
   chosen: Chosen | null;
-  choose: (c: Chosen) => void;
+  choose: (spot: Spot) => void;
   theme: string;
 }) {
   const shown = useMemo(

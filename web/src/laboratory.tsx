@@ -7,6 +7,7 @@ import { Awaited, DesignChip, Name, Problem, Table, Unit, unusual, useRepeated, 
 import { offerOf, Proposals } from "./proposals";
 import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
+import type { Looking } from "./route";
 import { TERMS } from "./terms";
 
 const stateColumns = (waits: boolean) => [
@@ -124,7 +125,19 @@ const groupColumns = [
   { heading: "scatter_without", value: (g: Group) => g.scatter_without },
 ];
 
-export function LaboratoryView({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
+export function LaboratoryView({
+  info,
+  rounds,
+  playing,
+  isOver,
+  looking: { at },
+}: {
+  info: RunInfo;
+  rounds: Rounds;
+  playing: boolean;
+  isOver: boolean;
+  looking: Looking;
+}) {
   const families = useResponse<Families>("/api/families");
   const book = useResponse<Laboratory>("/api/laboratory");
   const [by, setBy] = useStored("by", info.user);
@@ -140,6 +153,9 @@ export function LaboratoryView({ info, rounds, playing }: { info: RunInfo; round
   return (
     <>
       <Problem text={problem} />
+      {at.specimen && !laboratory.specimens.some((s) => s.specimen === at.specimen) && (
+        <Problem text={`This run has no specimen “${at.specimen}”${isOver ? "" : " yet"}.`} />
+      )}
       {playing && (
         <div class="row who">
           <label>
@@ -158,17 +174,25 @@ export function LaboratoryView({ info, rounds, playing }: { info: RunInfo; round
           refresh={refresh}
           playing={playing}
           approval={info.approval}
+          isOver={isOver}
         />
       )}
       <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
-      <Specimens laboratory={laboratory} by={by} refresh={refresh} playing={playing} />
+      <Specimens
+        laboratory={laboratory}
+        by={by}
+        refresh={refresh}
+        playing={playing}
+        isOver={isOver}
+        chosen={at.specimen}
+      />
       <section class="panel">
         <Table
           name="replicates"
           caption="Replicates: a mean is reliable once as many are tested as the game orders, and enough of them agree"
           rows={laboratory.groups}
           rowKey={(g) => g.tested[0]}
-          empty="Nothing has been measured yet."
+          empty={isOver ? "Nothing was measured." : "Nothing has been measured yet."}
           columns={groupColumns}
         />
       </section>

@@ -26,7 +26,7 @@ export function MapChart({
   place: Place | null;
   setPlace: (p: Place) => void;
   blend: Blend | null;
-  open: (design: string, index: number | null) => void;
+  open: (design: string) => void;
   theme: string;
 }) {
   const { chart, onReady } = useDrawn();
@@ -89,7 +89,7 @@ export function MapChart({
       const [x, y] = withinMap(map, [from.x + dx * STEP * width, from.y + dy * STEP * width]);
       setPlace({ x, y });
     } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern)
-      open(blend.between.pattern, null);
+      open(blend.between.pattern);
     else return;
     event.preventDefault();
   };
@@ -138,7 +138,7 @@ export function MapChart({
             const index = patternAt(...placeOf(event));
             if (index !== null) {
               setPlace({ x: map.x[index], y: map.y[index] });
-              open(map.pattern[index], index);
+              open(map.pattern[index]);
             }
           }
         }}

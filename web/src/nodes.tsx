@@ -3,6 +3,7 @@
 import type { Live, NodeState } from "./api";
 import { bytes, duration, words } from "./numbers";
 import { Bar, Table, type Column } from "./parts";
+import { addressOf } from "./route";
 import { toApprove } from "./status";
 
 const nameOf = (node: string) => (node === "virtual_lab" ? "virtual laboratory" : words(node));
@@ -10,7 +11,7 @@ const nameOf = (node: string) => (node === "virtual_lab" ? "virtual laboratory" 
 /** What a node is doing; where designs wait for a person, a link to where they are approved. */
 function Phase({ node }: { node: NodeState }) {
   if (toApprove(node) === 0) return <>{node.phase || "\u00a0"}</>;
-  return <a href="#laboratory">{node.phase}</a>;
+  return <a href={addressOf("laboratory")}>{node.phase}</a>;
 }
 
 export function NodeStrip({ live }: { live: Live }) {

@@ -1,6 +1,24 @@
 // The server's responses, SI units (docs/FORMATS.md, "Dashboard"). Written by nacre_page_types from the tables of
 // fields in lib/dashboard: not to be edited.
 
+export interface ListedRun {
+  run: string;
+  state: "playing" | "finished" | "stopped" | "unreadable";
+  problem: string;
+  scenario: string;
+  fidelity: string;
+  rounds: number;
+  round: number | null;
+  data: string;
+  measured_hypervolume: number | null;
+  hypervolume_error: number | null;
+  gap: number | null;
+}
+
+export interface Runs {
+  runs: ListedRun[];
+}
+
 export interface RunInfo {
   run: string;
   scenario: string;

@@ -2,6 +2,7 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { openedRun } from "./api";
 import { MATERIAL } from "./colour";
 import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
@@ -99,6 +100,9 @@ export interface Column<Row> {
   words?: boolean;
 }
 
+/** So many rows are drawn at once: thousands take a browser seconds. */
+const MOST_ROWS = 500;
+
 /** A table with its CSV. */
 export function Table<Row>({
   name,
@@ -108,6 +112,7 @@ export function Table<Row>({
   rowKey,
   empty,
   rowClass,
+  chosen,
 }: {
   name: string;
   caption: string;
@@ -116,7 +121,15 @@ export function Table<Row>({
   rowKey: (row: Row) => string;
   empty: string;
   rowClass?: (row: Row) => string;
+  /** The key of a row that somebody was led to: it stands out and in sight. */
+  chosen?: string;
 }) {
+  const [isWhole, setWhole] = useState(false);
+  const led = useRef<HTMLTableRowElement>(null);
+  useEffect(() => led.current?.scrollIntoView({ block: "center" }), [chosen, rows.length > 0]);
+  const first = isWhole ? rows : rows.slice(0, MOST_ROWS);
+  const beyond = chosen === undefined ? undefined : rows.slice(first.length).find((row) => rowKey(row) === chosen);
+  const drawn = beyond === undefined ? first : [beyond, ...first];
   const shown = columns.filter((column) => column.show);
   const stored = columns.filter((column) => column.value);
   return (
@@ -155,8 +168,13 @@ export function Table<Row>({
               </tr>
             </thead>
             <tbody>
-              {rows.map((row) => (
-                <tr key={rowKey(row)} class={rowClass?.(row)}>
+              {drawn.map((row) => (
+                <tr
+                  key={rowKey(row)}
+                  ref={rowKey(row) === chosen ? led : undefined}
+                  class={rowClass?.(row)}
+                  aria-current={rowKey(row) === chosen ? "true" : undefined}
+                >
                   {shown.map((c) => (
                     <td key={c.heading} class={c.words ? "words" : ""}>
                       {c.show!(row)}
@@ -167,6 +185,11 @@ export function Table<Row>({
             </tbody>
           </table>
         </div>
+      )}
+      {drawn.length < rows.length && (
+        <button type="button" class="quiet" onClick={() => setWhole(true)}>
+          show all {rows.length.toLocaleString("en")} rows
+        </button>
       )}
     </div>
   );
@@ -246,6 +269,22 @@ export function Problem({ text }: { text: string }) {
   );
 }
 
+/** In place of what an address names and the run has not; `link`: where to go on. */
+export function Nowhere({ why, link, words = "Show what there is" }: { why: string; link: string; words?: string }) {
+  return (
+    <p class="wait" role="status">
+      {why} <a href={link}>{words}</a>
+    </p>
+  );
+}
+
+/** The same of a round that is not there. */
+export function NoSuchRound({ wanted, rounds, link }: { wanted: string; rounds: number[]; link: string }) {
+  const there = rounds.length > 1 ? `rounds ${rounds[0]} to ${rounds.at(-1)}` : `round ${rounds[0]}`;
+  const why = rounds.length === 0 ? "has no round yet" : `has ${there}`;
+  return <Nowhere why={`There is no round ${wanted} here: this run ${why}.`} link={link} />;
+}
+
 /** In place of a view until the server has responded: that it is being read, or why it cannot be. */
 export function Awaited({ problem, what = "reading …" }: { problem: string; what?: string }) {
   return (
@@ -269,8 +308,9 @@ export function unusual(test: {
 
 const drafts = new Map<string, unknown>();
 
-/** State that outlives its view, but not the page: what somebody has typed and not submitted. */
-export function useDraft<T>(name: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
+/** State of a run that outlives its view, but not the page: what somebody has typed and not submitted. */
+export function useDraft<T>(draft: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
+  const name = `${openedRun()}/${draft}`;
   const [value, setValue] = useState<T>(() => (drafts.has(name) ? (drafts.get(name) as T) : initial));
   return [
     value,

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axis, basis, ChartBox, type Chart, type Option } from "./chart";
-import type { Chosen } from "./design_panel";
+import type { Chosen } from "./chosen";
 import { keyAt, PointIndex, type Gamut } from "./gamut";
 import { figure, GPA, MPA } from "./numbers";
 import { Unit } from "./parts";
@@ -146,7 +146,7 @@ export function PointChart({
   clouds: Cloud[];
   spots: Spot[];
   chosen: Chosen | null;
-  choose: (c: Chosen) => void;
+  choose: (spot: Spot) => void;
   table: () => { heading: string[]; rows: unknown[][] };
 }) {
   const { chart, onReady } = useDrawn();
@@ -207,9 +207,7 @@ export function PointChart({
     if (best) setPointed(best);
   };
 
-  const take = (spot: Spot | null) =>
-    spot &&
-    choose({ design: spot.design, model: spot.model, modulus: spot.x / GPA, toughness: spot.y / MPA, of: spot.of });
+  const take = (spot: Spot | null) => spot && choose(spot);
   const place = (event: MouseEvent) => placeIn(overlay.current!, event);
   const zoom = (factor: number) => {
     const c = chart.current!;
@@ -242,7 +240,7 @@ export function PointChart({
 
   const pressed = useRef<[number, number] | null>(null);
   const at = (x: number, y: number): [number, number] | null => {
-    if (!chart.current) return null;
+    if (!chart.current || Number.isNaN(x + y)) return null;
     const pixel = chart.current.convertToPixel("grid", [x, y]);
     return chart.current.containPixel("grid", pixel) ? [pixel[0], pixel[1]] : null;
   };

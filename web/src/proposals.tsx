@@ -54,6 +54,7 @@ export function Proposals({
   refresh,
   playing,
   approval,
+  isOver,
 }: {
   laboratory: Laboratory;
   offer: Offer | null;
@@ -61,6 +62,7 @@ export function Proposals({
   refresh: () => Promise<void>;
   playing: boolean;
   approval: boolean;
+  isOver: boolean;
 }) {
   const [why, setWhy] = useDraft("approval/why", "");
   const [own, setOwn] = useDraft("approval/own", "");
@@ -79,7 +81,9 @@ export function Proposals({
     return (
       <section class="panel">
         <h2>Proposals</h2>
-        <p class="awaited">There is no proposal yet: the first one follows the first search.</p>
+        <p class="awaited">
+          {isOver ? "Nothing was proposed." : "There is no proposal yet: the first one follows the first search."}
+        </p>
       </section>
     );
   const waits = approval && playing && !offer.isLate && offer.designs.some((p) => isOpen(p.design));

@@ -1,7 +1,7 @@
 // Reading from the server: the last response stays until there is a newer one; where it refuses, its sentence is kept.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { address, get, problemOf, type Query } from "./api";
+import { address, get, ofRun, openedRun, problemOf, type Query } from "./api";
 import { loadGamut, type Gamut } from "./gamut";
 import { useRepeated } from "./parts";
 
@@ -17,9 +17,9 @@ interface Reading<T> {
   read: () => Promise<void>;
 }
 
-/** A response of the server, read whenever `read` is called. Another query begins with nothing. */
-export function useResponse<T>(path: string, query: Query = {}): Reading<T> {
-  const request = address(path, query);
+/** A response of the server, read whenever `read` is called. Another query begins with nothing. `run` empty: none. */
+export function useResponse<T>(path: string, query: Query = {}, run = openedRun()): Reading<T> {
+  const request = ofRun(address(path, query), run);
   const nothing = { request, value: null as T | null, problem: "" };
   const [kept, setKept] = useState(nothing);
   const turns = useRef({ sent: 0, taken: 0 });
@@ -36,7 +36,7 @@ export function useResponse<T>(path: string, query: Query = {}): Reading<T> {
   const read = async () => {
     const turn = ++turns.current.sent;
     try {
-      take(turn, await get<T>(path, query), "");
+      take(turn, await get<T>(path, query, run), "");
     } catch (error) {
       take(turn, null, problemOf(error));
     }

@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { Laboratory, LaboratorySpecimen } from "./api";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Table, Unit, unusual, type Column } from "./parts";
+import { addressOf } from "./route";
 import { useSubmit } from "./submit";
 import { TERMS } from "./terms";
 
@@ -19,11 +20,16 @@ export function Specimens({
   by,
   refresh,
   playing,
+  isOver,
+  chosen,
 }: {
   laboratory: Laboratory;
   by: string;
   refresh: () => Promise<void>;
   playing: boolean;
+  isOver: boolean;
+  /** The specimen that somebody was led to. */
+  chosen?: string;
 }) {
   const [reviewed, setReviewed] = useState<string | null>(null);
   const [why, setWhy] = useState("");
@@ -112,10 +118,22 @@ export function Specimens({
         caption={`Review (${find ? `${rows.length} of ` : ""}${laboratory.specimens.length} specimens)`}
         rows={rows}
         rowKey={(s) => s.specimen}
-        empty={find ? `No specimen matches “${find}”.` : "Nothing has been measured yet."}
+        empty={
+          find
+            ? `No specimen matches “${find}”.`
+            : isOver
+              ? "Nothing was measured."
+              : "Nothing has been measured yet."
+        }
+        chosen={chosen}
         rowClass={(s) => (s.valid ? "" : "invalid")}
         columns={[
-          { heading: "specimen", words: true, show: (s) => s.specimen, value: (s) => s.specimen },
+          {
+            heading: "specimen",
+            words: true,
+            show: (s) => <a href={addressOf("laboratory", { specimen: s.specimen })}>{s.specimen}</a>,
+            value: (s) => s.specimen,
+          },
           {
             ...TERMS.design,
             words: true,

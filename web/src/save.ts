@@ -1,17 +1,12 @@
 // Pictures and tables as files. Names and titles begin with the run's name.
 
-let run = "";
-
-/** The run whose page this is. */
-export function nameRun(name: string): void {
-  run = name;
-}
+import { openedRun } from "./api";
 
 /** A file's name as it is saved: a run's name has no characters that a file's name may not have. */
-const fileName = (name: string) => (run ? `${run}-${name}` : name);
+const fileName = (name: string) => (openedRun() ? `${openedRun()}-${name}` : name);
 
 /** A title with the run's name. */
-export const titleOf = (text: string) => (run ? `${run}: ${text}` : text);
+export const titleOf = (text: string) => (openedRun() ? `${openedRun()}: ${text}` : text);
 
 export function save(name: string, content: Blob | string, type = "text/plain"): void {
   const blob = content instanceof Blob ? content : new Blob([content], { type });

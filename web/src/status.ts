@@ -2,6 +2,7 @@
 
 import type { Live, NodeState, Rounds, RunInfo } from "./api";
 import { duration } from "./numbers";
+import { addressOf } from "./route";
 
 export interface RunStatus {
   text: string;
@@ -38,7 +39,7 @@ function playingStatus(info: RunInfo, live: Live): RunStatus {
     return {
       text: `${place}: waits for you, ${waiting} ${waiting === 1 ? "design" : "designs"} to approve`,
       kind: "good",
-      link: "#laboratory",
+      link: addressOf("laboratory"),
     };
   return { text: `${place}: ${activityOf(nodes) || "running"}`, kind: "good" };
 }

@@ -12,6 +12,12 @@ const term = (heading: string, hint: string): Term => ({ heading, hint });
 export const AREA = "GPa\u00a0MPa";
 
 export const TERMS = {
+  run: term("run", "One played game."),
+  scenario: term("scenario", "The settings of the game."),
+  fidelity: term("fidelity", "How specimens are simulated: full as in the thesis, preview faster, tiny to try things."),
+  runState: term("state", "playing, finished, stopped before its end, or what cannot be read."),
+  roundsDone: term("rounds", "The last complete round, of those that the scenario plans."),
+
   round: term("round", "Propose, measure, calibrate, diagnose. Round 0 has base materials alone."),
   design: term("design", "Whatever can be tested: a pattern of 20 x 20 pixels, a coupon or a mixture."),
   rigid: term("rigid share", "Share of rigid material."),

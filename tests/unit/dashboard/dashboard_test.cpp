@@ -13,6 +13,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "dashboard/server.hpp"
+#include "dashboard/several_runs.hpp"
 #include "fake_desk.hpp"
 #include "families/families_file.hpp"
 #include "material/parameter_file.hpp"
@@ -37,6 +38,8 @@ class DashboardOfARun : public testing::Test {
     for (int chunk = 0; chunk < 3; ++chunk) database.keep("GAMUT", wire::write(gamut_chunk(chunk)));
     database.checkpoint();
     dashboard_.emplace(settings(), desk_);
+    page_.emplace(folder_ / "page",
+                  std::vector<ShownRun>{{"broken", nullptr, "run.db: is no database"}, {"game", &*dashboard_}});
   }
   ~DashboardOfARun() override { fs::remove_all(folder_); }
 
@@ -49,10 +52,10 @@ class DashboardOfARun : public testing::Test {
   }
 
   Response get(const std::string& path, std::map<std::string, std::string> query = {}) {
-    return dashboard_->handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
+    return page_->handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
   }
   Response post(const std::string& path, const std::string& body, std::map<std::string, std::string> query = {}) {
-    return dashboard_->handle({.method = "POST", .path = path, .query = std::move(query), .headers = {}, .body = body});
+    return page_->handle({.method = "POST", .path = path, .query = std::move(query), .headers = {}, .body = body});
   }
   Json json(const std::string& path, std::map<std::string, std::string> query = {}) {
     return Json::parse(get(path, std::move(query)).body);
@@ -79,7 +82,6 @@ class DashboardOfARun : public testing::Test {
   DashboardSettings settings() const {
     DashboardSettings settings;
     settings.run_folder = folder_;
-    settings.page_folder = folder_ / "page";
     settings.family_folder = folder_ / "families";
     settings.scenario.fidelity = tester::Fidelity::tiny;
     return settings;
@@ -87,7 +89,8 @@ class DashboardOfARun : public testing::Test {
 
   fs::path folder_ = fs::temp_directory_path() / fmt::format("nacre-dashboard-{}", ::getpid());
   FakeDesk desk_;
-  std::optional<Dashboard> dashboard_;  ///< reads the page when it is made
+  std::optional<Dashboard> dashboard_;
+  std::optional<SeveralRuns> page_;  ///< reads its files when it is made
 };
 
 TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
@@ -166,10 +169,11 @@ TEST_F(DashboardOfARun, NodesOfARunThatIsOverAreNotCalledSilent) {
 }
 
 TEST_F(DashboardOfARun, AnAddressThatCannotBeListenedToIsSaidWithItsCause) {
+  const auto nobody = [](const Request&) { return Response{}; };
   const auto complaint = [&](const std::string& host, int port) -> std::string {
     try {
       serve(
-          *dashboard_, {.host = host, .port = port, .token = ""}, [](int) {}, [] { return true; });
+          nobody, {.host = host, .port = port, .token = ""}, [](int) {}, [] { return true; });
     } catch (const InputError& error) {
       return error.what();
     }
@@ -180,8 +184,8 @@ TEST_F(DashboardOfARun, AnAddressThatCannotBeListenedToIsSaidWithItsCause) {
   std::string second;
   int asked = 0;
   serve(
-      *dashboard_, {.host = "127.0.0.1", .port = 0, .token = ""},
-      [&](int port) { second = complaint("127.0.0.1", port); }, [&] { return ++asked > 1; });
+      nobody, {.host = "127.0.0.1", .port = 0, .token = ""}, [&](int port) { second = complaint("127.0.0.1", port); },
+      [&] { return ++asked > 1; });
   EXPECT_THAT(second, HasSubstr("is another dashboard there?"));
 }
 
@@ -236,15 +240,105 @@ TEST_F(DashboardOfARun, WhatIsEnteredReachesTheDesk) {
 }
 
 TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {
-  desk_.answer = Delivery::unanswered;
+  desk_.answer = {Delivery::unanswered};
   const Response late = post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
   EXPECT_EQ(late.status, 504);
   EXPECT_THAT(late.body, HasSubstr("is the game still running"));
-  desk_.answer = Delivery::conflicting;
+  desk_.answer = {Delivery::conflicting};
   EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
             409);
   EXPECT_EQ(post("/api/measurement", "{").status, 400);
   EXPECT_EQ(desk_.specimens.size(), 1u);
+}
+
+TEST_F(DashboardOfARun, ALateRefusalComesWithItsReason) {
+  desk_.answer = {Delivery::refused, "soft is ordered already. What the run has stays."};
+  for (const auto& [path, body] : std::map<std::string, std::string>{
+           {"/api/approval", R"({"design":"soft","approved":true,"by":"Ada","why":""})"},
+           {"/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})"},
+           {"/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"}}) {
+    const Response refusal = post(path, body);
+    EXPECT_EQ(refusal.status, 409) << path;
+    EXPECT_EQ(Json::parse(refusal.body)["answer"], "refused");
+    EXPECT_EQ(Json::parse(refusal.body)["error"], desk_.answer.refusal);
+  }
+}
+
+TEST_F(DashboardOfARun, TheLaboratoryIsWrittenAnewOnlyWhenItHasChanged) {
+  const auto with_specimens = [](int count) {
+    Laboratory laboratory;
+    for (int i = 0; i < count; ++i) {
+      measurement::SpecimenRecord record;
+      record.specimen = fmt::format("s{}", i);
+      record.design = pattern::Design(pattern::Pattern(7));
+      laboratory.facts.book.enter(record, "");
+    }
+    return std::make_shared<const Laboratory>(std::move(laboratory));
+  };
+  desk_.picture = with_specimens(2);
+  EXPECT_EQ(json("/api/laboratory")["specimens"].size(), 2u);
+  desk_.picture = with_specimens(3);
+  for (int turn = 0; turn < 100 && json("/api/laboratory")["specimens"].size() != 3u; ++turn) ::usleep(20'000);
+  EXPECT_EQ(json("/api/laboratory")["specimens"].size(), 3u);
+}
+
+TEST_F(DashboardOfARun, EveryAddressMayNameItsRun) {
+  for (const char* path : {"/api/run", "/api/rounds", "/api/live", "/api/laboratory", "/api/families"})
+    EXPECT_EQ(get(std::string("/runs/game") + path).body, get(path).body) << path;
+  EXPECT_EQ(get("/runs/game/api/gamut", {{"round", "7"}}).body, get("/api/gamut", {{"round", "7"}}).body);
+  EXPECT_EQ(get("/runs/game/api/nothing").status, 404);
+  EXPECT_EQ(get("/runs/game").status, 404);
+  EXPECT_EQ(post("/runs/game/api/run", "{}").status, 405);
+  EXPECT_EQ(post("/runs/game/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
+  EXPECT_EQ(desk_.reviews.size(), 1u);
+}
+
+TEST_F(DashboardOfARun, ANameThatIsNoRunsIsRefused) {
+  for (const char* name : {"", "..", ".", "gam", "game2", "..%2f..", "../game", "Game"})
+    for (const char* path : {"/api/run", "/report", "/../secret.toml"})
+      EXPECT_EQ(get(fmt::format("/runs/{}{}", name, path)).status, 404) << name << path;
+  EXPECT_EQ(get("/runs/game/../secret.toml").status, 404);
+  EXPECT_EQ(json("/runs/other/api/run")["error"], "there is no run `other` here, expected broken, game");
+  EXPECT_EQ(get("/runs/broken/api/run").status, 503);
+  EXPECT_EQ(json("/runs/broken/api/run")["error"], "run.db: is no database");
+}
+
+TEST_F(DashboardOfARun, TheListTellsHowFarEachRunIsAndWhyOneCannotBeRead) {
+  run::RunDatabase database(folder_ / "run.db");
+  wire::RoundSummary closed = wire::samples::round();
+  closed.round = 7;
+  closed.measured_hypervolume_staircase = 1.5;
+  database.keep("ROUND", wire::write(closed));
+  const Json before = json("/api/runs")["runs"];
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before[0]["run"], "broken");
+  EXPECT_EQ(before[0]["state"], "unreadable");
+  EXPECT_EQ(before[0]["problem"], "run.db: is no database");
+  EXPECT_TRUE(before[0]["round"].is_null());
+  EXPECT_EQ(before[1]["run"], "game");
+  EXPECT_EQ(before[1]["state"], "stopped");
+  EXPECT_EQ(before[1]["round"], 7);
+  EXPECT_EQ(before[1]["measured_hypervolume"], 1.5);
+  EXPECT_EQ(before[1]["gap"], closed.gap);
+  desk_.reports = {{"analyser", wire::NodeStatus{}, 1.0}};
+  EXPECT_EQ(json("/api/runs")["runs"][1]["state"], "playing");
+  wire::RoundSummary last = closed;
+  last.round = 8;
+  last.last = true;
+  last.measured_hypervolume_staircase = 0.0;
+  database.keep("ROUND", wire::write(last));
+  const Json after = json("/api/runs")["runs"][1];
+  EXPECT_EQ(after["state"], "finished");
+  EXPECT_NE(after["data"], before[1]["data"]);
+  EXPECT_TRUE(after["gap"].is_null()) << "nothing is measured";
+}
+
+TEST_F(DashboardOfARun, ARunThatCannotBeReadAnyMoreIsARowThatSaysSo) {
+  EXPECT_EQ(json("/api/runs")["runs"][1]["state"], "stopped");
+  std::ofstream(folder_ / "run.db") << std::string(4096, 'x');
+  const Json row = json("/api/runs")["runs"][1];
+  EXPECT_EQ(row["state"], "unreadable") << row;
+  EXPECT_THAT(row["problem"].get<std::string>(), HasSubstr("run.db"));
 }
 
 TEST_F(DashboardOfARun, ReadingsAreReadAndEntriesArePosted) {

@@ -11,25 +11,25 @@ namespace nacre::dashboard {
 
 class FakeDesk : public Desk {
  public:
-  Laboratory laboratory() override { return picture; }
+  std::shared_ptr<const Laboratory> laboratory() override { return picture; }
   std::vector<NodeReport> nodes() override { return reports; }
   std::optional<LiveSearch::Progress> search() override { return live.progress(); }
   run::Gamut searched(int round) override { return live.gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
-  Delivery enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
-  Delivery review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
+  Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
+  Answer review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
   std::optional<std::string> against(const SpecimenReview&) override { return reason_against; }
   std::optional<std::string> against(const Approval&) override { return reason_against; }
-  Delivery decide(const Approval& approval) override { return approvals.push_back(approval), answer; }
+  Answer decide(const Approval& approval) override { return approvals.push_back(approval), answer; }
 
   void keep_grouping(const std::filesystem::path&, const std::vector<families::SeedFamily>& families) override {
     groupings.push_back(families);
   }
 
-  Laboratory picture;
+  std::shared_ptr<const Laboratory> picture = std::make_shared<const Laboratory>();
   std::vector<NodeReport> reports;
   LiveSearch live;
-  Delivery answer = Delivery::accepted;
+  Answer answer;
   std::optional<std::string> reason_against;
   std::vector<std::string> doubts;
   std::vector<measurement::SpecimenRecord> specimens;
