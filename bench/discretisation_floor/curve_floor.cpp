@@ -45,7 +45,7 @@ std::vector<study::Wanted> wanted_curves(const FloorPlan& plan) {
         wanted.push_back({toughness_key(plan, i, set, refinement), [=]() -> std::vector<double> {
                             const auto result = tester::test_toughness(simulation, {.refinement = refinement});
                             const diagnosis::FeatureValues features =
-                                result ? diagnosis::fracture_features(result->curve) : diagnosis::FeatureValues{};
+                                result ? diagnosis::fracture_features(result->curve, {}) : diagnosis::FeatureValues{};
                             std::vector<double> values;
                             for (const Feature feature : compared())
                               values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));

@@ -9,9 +9,6 @@ namespace {
 
 using tester::TestKind;
 
-constexpr int kLeastGroups = 8, kLeastCoupons = 4;
-constexpr double kNothing = 1e-9;
-
 }  // namespace
 
 bool is_identified_by_moduli(const material::Effect& effect) {
@@ -27,19 +24,20 @@ bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
 
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows) {
+  constexpr double kRounding = 1e-9;
   return std::ranges::any_of(rows, [&](Eigen::Index row) {
-    return change[row] > kNothing && (is_identified_by_moduli(effect) || !is_modulus_of_layout(observations, row));
+    return change[row] > kRounding && (is_identified_by_moduli(effect) || !is_modulus_of_layout(observations, row));
   });
 }
 
-std::optional<std::string> why_too_few(std::span<const Observation> groups) {
+std::optional<std::string> why_too_few(std::span<const Observation> groups, const NoiseRules& rules) {
   const auto layouts = std::ranges::count_if(groups, [](const Observation& g) { return g.design.layout() != nullptr; });
   const auto coupons = std::ranges::count(groups, TestKind::tensile, &Observation::test);
-  if (layouts >= kLeastGroups || coupons >= kLeastCoupons) return std::nullopt;
+  if (layouts >= rules.fewest_groups || coupons >= rules.fewest_coupons) return std::nullopt;
   return fmt::format(
       "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
       "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
-      kLeastGroups, kLeastCoupons, layouts, coupons);
+      rules.fewest_groups, rules.fewest_coupons, layouts, coupons);
 }
 
 }  // namespace nacre::diagnosis

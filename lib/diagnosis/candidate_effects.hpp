@@ -22,6 +22,6 @@ bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change
                    std::span<const Eigen::Index> rows);
 
 /// Why these groups are too few for a diagnosis, as a sentence without its full stop; empty where they are enough.
-std::optional<std::string> why_too_few(std::span<const Observation> groups);
+std::optional<std::string> why_too_few(std::span<const Observation> groups, const NoiseRules& rules);
 
 }  // namespace nacre::diagnosis

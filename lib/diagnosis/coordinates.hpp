@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/procedure.hpp"
 #include "material/extensions.hpp"
 #include "material/ranges.hpp"
 
@@ -22,6 +23,7 @@ struct Basis {
   material::ParameterSet centre =
       material::default_parameters();  ///< centre of the search for eta, and values of constants that are not searched
   material::ParameterRanges ranges = material::thesis_ranges();  ///< of theta and the bulk constants
+  ConstantRules rules = {};
 };
 
 /// One parameter of one effect.
@@ -30,12 +32,12 @@ struct EffectCoordinate {
   int parameter = 0;
 };
 
-/// Bounds of a search: the range widened three-fold about its middle, of the logarithm where `logarithmic` (moduli);
+/// Bounds of a search: the range widened about its middle, of the logarithm where `logarithmic` (moduli);
 /// ratios are kept physical.
 struct Bounds {
   double low = 0.0, high = 0.0;
 };
-Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic);
+Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic, const ConstantRules& rules);
 
 /// A Young's modulus of a fit that is at its bound: no prior would leave it there, the ranges are those of other inks.
 struct ModulusAtBound {
@@ -88,6 +90,7 @@ class CoordinateMap {
   material::ParameterSet with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const;
 
   material::ParameterSet centre_;
+  ConstantRules rules_;
   std::vector<BaseCoordinate> base_;
   std::vector<std::string> effects_;
   std::vector<EffectCoordinate> extension_;

@@ -19,8 +19,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kNextExperiments = 4;
-
 /// The specimens of the rows of a part.
 std::string specimens_in_words(const Observations& observations, std::size_t part) {
   const std::vector<std::size_t> parts = parts_of_rows(observations);
@@ -142,9 +140,10 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
 }  // namespace
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
-  if (settings.bootstraps * settings.name_level < 2.0) {
+  if (settings.bootstraps * settings.procedure.levels.name < 2.0) {
     throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}",
-                             settings.bootstraps, settings.name_level, std::ceil(2.0 / settings.name_level));
+                             settings.bootstraps, settings.procedure.levels.name,
+                             std::ceil(2.0 / settings.procedure.levels.name));
   }
   const auto report = [&](double share, std::string_view phase) {
     if (settings.progress) settings.progress(share, phase);
@@ -173,24 +172,29 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     std::vector<FittedModel> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that was fitted to all the data.
     if (decided.effects.size() > 1) models.push_back(decided);
-    const Gain gain =
-        held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence), settings.seed);
+    const Gain gain = held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence),
+                                    settings.procedure.gain, settings.seed);
     // The gain of the nearest effect where none is named is reported as a partial gain.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
   report(0.95, "choosing the next experiments");
   const CoordinateMap map = evidence.model.map(decided.effects);
   const std::vector<ModulusAtBound> at_bounds = map.moduli_at_bounds(decided.u);
-  diagnosis.next_experiments = next_experiments(evidence, models_to_separate(evidence, decision), kNextExperiments);
-  if (!decision.untold.empty()) diagnosis.next_experiments = specimens_of_materials(observations, decision.untold);
+  diagnosis.next_experiments =
+      next_experiments(evidence, models_to_separate(evidence, decision), settings.procedure.tests);
+  if (!decision.untold.empty())
+    diagnosis.next_experiments =
+        specimens_of_materials(observations, decision.untold, settings.procedure.tests.replicates);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "discretisation error of three specimens");
   if (settings.check_discretisation)
-    diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity);
+    diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity,
+                                            settings.procedure.cautions.numerical);
   diagnosis.summary =
       summary_with_cautions(diagnosis, decision, observations, at_bounds,
-                            other_materials(observations, settings.ranges), groups_out_of_line(specimens));
+                            other_materials(observations, settings.ranges, settings.procedure.constants),
+                            groups_out_of_line(specimens), settings.procedure);
   report(1.0, "done");
   return diagnosis;
 }

@@ -16,9 +16,8 @@ std::string_view to_string(Verdict verdict) {
   return "unexplained";
 }
 
-bool lines_up(const Diagnosis& diagnosis) {
-  constexpr double kLevel = 0.05;
-  return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= kLevel;
+bool lines_up(const Diagnosis& diagnosis, const Levels& levels) {
+  return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= levels.contrast;
 }
 
 Diagnosis undecided(const std::string& why) {

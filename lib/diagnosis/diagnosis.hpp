@@ -9,6 +9,7 @@
 #include "diagnosis/features.hpp"
 #include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
+#include "diagnosis/procedure.hpp"
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "measurement/specimen_record.hpp"
@@ -189,7 +190,7 @@ struct Diagnosis {
 };
 
 /// Whether the base's residuals line up with their strongest contrast beyond chance.
-bool lines_up(const Diagnosis& diagnosis);
+bool lines_up(const Diagnosis& diagnosis, const Levels& levels);
 
 /// The result where nothing can be computed: `ambiguous`, nothing claimed, and why.
 Diagnosis undecided(const std::string& why);

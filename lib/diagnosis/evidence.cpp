@@ -8,15 +8,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// How often the shared directions of the discretisation error are computed anew at models fitted with them.
-constexpr int kMeshPasses = 2;
-/// How often fracture tests are simulated at the fits and learnt from, and the largest error of the emulator before
-/// that is repeated.
-constexpr int kRefinements = 3;
-constexpr double kWellKnown = 1.5;
-/// Effects whose fits are simulated: those that come near the best.
-constexpr std::size_t kRefinedEffects = 4;
-
 /// These sizes of an effect, and of a two-sided one their negatives, in the order of a signature's changes.
 std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) {
   std::vector<double> all(sizes.begin(), sizes.end());
@@ -30,18 +21,21 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
+const FitRules& rules_of(const Evidence& evidence) { return evidence.settings.procedure.fit; }
+
 /// The base model with signatures and contrasts on top of it.
 void put_base(Evidence& evidence, FittedModel base) {
   evidence.base.fit = std::move(base);
-  evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
+  evidence.base.signatures =
+      signatures_on(evidence.model, evidence.base.fit, evidence.effects, rules_of(evidence).sizes);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
 }
 
 /// Base and one effect, from the best initial guess.
 FittedModel fit_single(const Evidence& evidence, std::size_t effect) {
-  return fit_model(
-      evidence.model, evidence.observations, {evidence.effects[effect]},
-      best_initial_guess(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
+  return fit_model(evidence.model, evidence.observations, rules_of(evidence), {evidence.effects[effect]},
+                   best_initial_guess(evidence.model, evidence.observations, evidence.base.fit,
+                                      evidence.base.signatures[effect], rules_of(evidence)));
 }
 
 /// First constants, with the effect size of the smallest chi squared there.
@@ -51,7 +45,7 @@ Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedMo
   const CoordinateMap map = evidence.model.map(fit.effects);
   const Whitener whitener(evidence.observations.covariance());
   std::vector<Eigen::VectorXd> starts;
-  for (const double size : {0.3, 0.6, 0.9}) {
+  for (const double size : rules_of(evidence).restart_sizes) {
     starts.push_back(first);
     starts.back()[own] = size;
   }
@@ -68,12 +62,12 @@ Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedMo
 /// The base is restarted from where the best extended fit ended: a gain must not be better optimisation. Where that
 /// helps it, every effect is restarted from there.
 void restart_base(Evidence& evidence) {
-  constexpr double kBetter = 0.1;
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
                                      [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
-  if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - 1.0) return;
-  FittedModel again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
-  if (again.chi2 >= evidence.base.fit.chi2 - kBetter) return;
+  if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - rules_of(evidence).base_behind) return;
+  FittedModel again =
+      fit_model(evidence.model, evidence.observations, rules_of(evidence), {}, best->u.head(best->base_count));
+  if (again.chi2 >= evidence.base.fit.chi2 - rules_of(evidence).better) return;
   put_base(evidence, std::move(again));
   for (std::size_t k = 0; k < evidence.singles.size(); ++k)
     evidence.singles[k] = better_of(std::move(evidence.singles[k]), fit_single(evidence, k));
@@ -82,12 +76,11 @@ void restart_base(Evidence& evidence) {
 /// An effect of larger chi squared than the base is caught in a local minimum, since at size 0 it is the base:
 /// restarted there.
 void restart_at_the_base(Evidence& evidence) {
-  constexpr double kMore = 0.02;
   for (FittedModel& single : evidence.singles) {
-    if (single.chi2 <= evidence.base.fit.chi2 + kMore) continue;
+    if (single.chi2 <= evidence.base.fit.chi2 + rules_of(evidence).converged) continue;
     const CoordinateMap map = evidence.model.map(single.effects);
-    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects,
-                                                    widened_start(evidence.base.fit, map)));
+    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, rules_of(evidence),
+                                                    single.effects, widened_start(evidence.base.fit, map)));
   }
 }
 
@@ -98,7 +91,7 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
       evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
   };
   report(0.0, "fitting the base model");
-  FittedModel base = fit_model(evidence.model, evidence.observations, {}, start);
+  FittedModel base = fit_model(evidence.model, evidence.observations, rules_of(evidence), {}, start);
   report(0.3, "signatures of the effects");
   put_base(evidence, std::move(base));
   std::vector<FittedModel> singles;
@@ -106,11 +99,11 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
            "fitting base and " + evidence.effects[k]);
     // An earlier fit of some size is the initial guess under another covariance or emulator.
-    const bool found =
-        k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
-    singles.push_back(
-        found ? fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, evidence.singles[k].u)
-              : fit_single(evidence, k));
+    const bool found = k < evidence.singles.size() &&
+                       std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > rules_of(evidence).nothing;
+    singles.push_back(found ? fit_model(evidence.model, evidence.observations, rules_of(evidence),
+                                        {evidence.effects[k]}, evidence.singles[k].u)
+                            : fit_single(evidence, k));
   }
   evidence.singles = std::move(singles);
   for (FittedModel& single : evidence.singles) single = restarted(evidence, std::move(single));
@@ -142,17 +135,19 @@ void share_discretisation(Evidence& evidence) {
 /// predicts them.
 void refine_fractures(Evidence& evidence, Workbench& workbench) {
   if (!workbench.has_fractures()) return;
-  for (int pass = 0; pass < kRefinements; ++pass) {
+  const EmulatorRules& rules = evidence.settings.procedure.emulator;
+  for (int pass = 0; pass < rules.refinements; ++pass) {
     std::vector<const FittedModel*> order;
     for (const FittedModel& single : evidence.singles) order.push_back(&single);
     std::stable_sort(order.begin(), order.end(),
                      [](const FittedModel* a, const FittedModel* b) { return a->chi2 < b->chi2; });
     std::vector<material::ParameterSet> sets = {evidence.base.fit.parameters};
-    for (std::size_t k = 0; k < std::min(order.size(), kRefinedEffects); ++k) sets.push_back(order[k]->parameters);
+    for (std::size_t k = 0; k < std::min(order.size(), static_cast<std::size_t>(rules.refined_effects)); ++k)
+      sets.push_back(order[k]->parameters);
     const double error = workbench.refine(sets);
     const double begin = 0.6 + 0.03 * pass;
     fit_models(evidence, evidence.base.fit.u, {begin, begin + 0.03});
-    if (error < kWellKnown) return;
+    if (error < rules.well_known) return;
   }
 }
 
@@ -198,25 +193,25 @@ Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) 
 }
 
 FittedModel restarted(const Evidence& evidence, FittedModel fit) {
-  constexpr double kMuch = 60.0, kNothing = 0.01;
+  const FitRules& rules = rules_of(evidence);
   const double found = evidence.base.fit.chi2 - fit.chi2;
   const auto again_from = [&](const Eigen::VectorXd& u) {
-    FittedModel again = fit_model(evidence.model, evidence.observations, fit.effects, u);
+    FittedModel again = fit_model(evidence.model, evidence.observations, rules_of(evidence), fit.effects, u);
     return better_of(std::move(fit), std::move(again));
   };
-  if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
+  if (found >= rules.far_behind) fit = again_from(at_first_constants(evidence, fit.u));
   // A further fit of every effect to moduli of layouts would double the work; effects of a machine on curves need it.
-  const bool is_far_off = fit.chi2 > evidence.observations.size() + kMuch;
+  const bool is_far_off = fit.chi2 > evidence.observations.size() + rules.far_behind;
   const bool is_of_curves =
       material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
   if (fit.effects.size() > 1 || !is_far_off || !is_of_curves) return fit;
-  const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < kNothing;
-  if (found >= kMuch || found_nothing) fit = again_from(promising_initial_guess(evidence, fit));
+  const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < rules.nothing;
+  if (found >= rules.far_behind || found_nothing) fit = again_from(promising_initial_guess(evidence, fit));
   return fit;
 }
 
 Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
-                                   const FittedModel& anchor, const Signature& signature) {
+                                   const FittedModel& anchor, const Signature& signature, const FitRules& rules) {
   std::vector<std::string> names = anchor.effects;
   names.push_back(signature.effect);
   const CoordinateMap map = model.map(names);
@@ -224,7 +219,7 @@ Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations
   const Eigen::Index own = anchor.u.size();
   Eigen::VectorXd best = widened_start(anchor, map);
   double least = anchor.chi2;
-  const std::vector<double> sizes = signed_sizes(kSizes, signature.one_sided);
+  const std::vector<double> sizes = signed_sizes(rules.sizes, signature.one_sided);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     FittedModel shifted = anchor;
     shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
@@ -237,7 +232,7 @@ Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations
     best[own] = sizes[i];
   }
   // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
-  if (best[own] == 0.0) best[own] = kSizes[0];
+  if (best[own] == 0.0) best[own] = rules.sizes.front();
   return best;
 }
 
@@ -245,8 +240,9 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}, {}};
   const CoordinateMap map = evidence.model.base_map();
   const double first = workbench.has_fractures() ? 0.55 : 0.0;
-  const int passes =
-      settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
+  const int passes = settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus)
+                         ? 1 + settings.procedure.fit.mesh_passes
+                         : 1;
   for (int pass = 0; pass < passes; ++pass) {
     if (pass > 0) share_discretisation(evidence);
     const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
@@ -257,9 +253,10 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   const Observations& observations = evidence.observations;
   if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
   evidence.base.parts = parts_of_rows(observations);
-  evidence.base_statistics =
-      anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
-  evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
+  evidence.base_statistics = anchor_statistics(
+      evidence.base, {observations.values, Whitener(observations.covariance())}, settings.procedure.names.imitated);
+  evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.procedure.names.imitated,
+                                         settings.bootstraps, settings.seed);
   return evidence;
 }
 
@@ -274,7 +271,7 @@ ProfileFit fit_with_own_discretisation(const Evidence& evidence, const std::vect
                                        const Eigen::VectorXd& start, const std::vector<int>& held, double hopeless) {
   const auto fitted_from = [&](const Eigen::VectorXd& u) {
     const Observations observations = with_discretisation_at(evidence, evidence.model.map(effects), u);
-    ProfileFit at{fit_model(evidence.model, observations, effects, u, held)};
+    ProfileFit at{fit_model(evidence.model, observations, rules_of(evidence), effects, u, held)};
     const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
     at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
     return at;

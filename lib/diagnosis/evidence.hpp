@@ -40,12 +40,12 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
 
 /// Signatures of every effect on top of a fitted model, at these shares of its range.
 std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
-                                     const std::vector<std::string>& effects, std::span<const double> sizes = kSizes);
+                                     const std::vector<std::string>& effects, std::span<const double> sizes);
 
 /// Initial guess of a joint fit of a fitted model and one effect more: the size of its signature that lowers the misfit
 /// most.
 Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
-                                   const FittedModel& anchor, const Signature& signature);
+                                   const FittedModel& anchor, const Signature& signature, const FitRules& rules);
 
 /// The one of smaller chi squared.
 FittedModel better_of(FittedModel a, FittedModel b);

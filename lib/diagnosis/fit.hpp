@@ -39,7 +39,7 @@ struct FittedModel {
 
 /// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
 /// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
-FittedModel fit_model(const FeatureModel& model, const Observations& observations,
+FittedModel fit_model(const FeatureModel& model, const Observations& observations, const FitRules& rules,
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held = {});
 

@@ -34,10 +34,10 @@ material::ParameterSet simulated_side(const material::ParameterSet& set) {
 }
 
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
-                             const measurement::PrintContext& context) {
+                             const CurveReading& reading, const measurement::PrintContext& context) {
   if (!prediction.toughness_pa || prediction.curve.empty()) return {};
   const sysid::Prediction shown = sysid::observed(prediction, extensions, context);
-  FeatureValues features = fracture_features(shown.curve);
+  FeatureValues features = fracture_features(shown.curve, reading);
   if (shown.toughness_pa && *shown.toughness_pa > 0.0)
     value_of(features, Feature::log_toughness) = std::log(*shown.toughness_pa);
   return features;

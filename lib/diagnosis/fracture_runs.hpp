@@ -24,7 +24,7 @@ struct FractureRun {
 
 /// The features of a prediction as recorded by a machine with these measurement-side extensions.
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
-                             const measurement::PrintContext& context = {});
+                             const CurveReading& reading, const measurement::PrintContext& context = {});
 
 class FractureRuns {
  public:

@@ -23,13 +23,13 @@ struct SurfaceRow {
 
 /// Covariance of the changes by one effect, between two points given by its strengths (-1 to 1; further parameters
 /// behind): zero without the effect, linear and curved in its size.
-double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const EmulatorRules& rules);
 
 class FractureSurface {
  public:
   /// Rows of the observations that the surface predicts.
   explicit FractureSurface(const Observations& observations, const FractureRuns& runs,
-                           material::ToughnessParameters centre);
+                           material::ToughnessParameters centre, const EmulatorRules& rules);
   /// Learns from all runs there are now. O(runs^3) per feature.
   void learn();
   const std::vector<SurfaceRow>& rows() const { return rows_; }
@@ -46,7 +46,7 @@ class FractureSurface {
     std::map<int, Eigen::VectorXd> effects;  ///< strengths, by index in the library
   };
   struct Kernel {
-    double linear = 0.5, curved = 0.2, noise = 0.05;
+    double linear = 1.0, curved = 1.0, noise = 1.0;
     std::map<int, double> effect;  ///< amplitude by library index
   };
   struct Learnt {
@@ -56,7 +56,7 @@ class FractureSurface {
     Eigen::MatrixXd weights;  ///< runs x rows
   };
   SurfacePoint point_of(const material::ParameterSet& set) const;
-  static double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b);
+  double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) const;
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
   /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
@@ -68,6 +68,7 @@ class FractureSurface {
   const Observations& observations_;
   const FractureRuns& runs_;
   material::ToughnessVector centre_;
+  EmulatorRules rules_;
   std::vector<SurfaceRow> rows_;
   std::vector<SurfacePoint> points_;
   std::vector<Learnt> learnt_;

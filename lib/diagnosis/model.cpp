@@ -40,15 +40,19 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
   const auto shown = coupon_through_machine({group.design, set, group.conditions, fidelity_}, group.curve.strain,
                                             {.batch_step = group.batch_step});
   if (!shown) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), shown.error().message));
-  const auto end = carried_strain(group.curve);
+  const auto end = carried_strain(group.curve, observations_.reading);
   return end ? tester::cut_at(*shown, *end) : *shown;
 }
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
-                const material::ParameterRanges& ranges) {
-  const std::vector<OtherMaterial> others = other_materials(observations, ranges);
-  Basis basis{
-      .modulus = false, .toughness = false, .coupon = false, .centre = start, .ranges = ranges_over(ranges, others)};
+                const material::ParameterRanges& ranges, const ConstantRules& rules) {
+  const std::vector<OtherMaterial> others = other_materials(observations, ranges, rules);
+  Basis basis{.modulus = false,
+              .toughness = false,
+              .coupon = false,
+              .centre = start,
+              .ranges = ranges_over(ranges, others),
+              .rules = rules};
   material::ModulusVector moduli = to_vector(start.modulus);
   for (const OtherMaterial& other : others) moduli[other.material] = other.modulus_pa;
   basis.centre.modulus = material::modulus_from_vector(moduli);
@@ -125,11 +129,11 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
                              Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
-  FeatureValues values = tensile_features(coupon_curve(g, set));
+  FeatureValues values = tensile_features(coupon_curve(g, set), observations_.reading);
   if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: no information on stresses
     material::ParameterSet without = set;
     without.extensions.erase("toe_slack");
-    values = tensile_features(coupon_curve(g, without));
+    values = tensile_features(coupon_curve(g, without), observations_.reading);
   }
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[row].feature);

@@ -83,6 +83,6 @@ Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, c
 /// Blocks of base constants that these observations need, in `ranges`, stretched over what specimens of other materials
 /// measured (other_materials.hpp); constants that are not searched from `start`.
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
-                const material::ParameterRanges& ranges);
+                const material::ParameterRanges& ranges, const ConstantRules& rules);
 
 }  // namespace nacre::diagnosis

@@ -16,8 +16,7 @@ std::optional<double> log_modulus(const Observations& observations, int material
   int groups = 0;
   for (const Observation& group : observations.groups) {
     if (group.material() != kConstantMaterials[material] || group.test == tester::TestKind::toughness) continue;
-    const Feature feature =
-        group.test == tester::TestKind::modulus ? Feature::log_modulus : Feature::log_tangent_10;
+    const Feature feature = group.test == tester::TestKind::modulus ? Feature::log_modulus : Feature::log_tangent_10;
     if (const auto& log_e = value_of(group.features, feature)) sum += *log_e, ++groups;
   }
   if (groups == 0) return std::nullopt;
@@ -37,11 +36,12 @@ bool is_told_by_own_specimens(const Observations& observations, int material) {
   return log_modulus(observations, material).has_value();
 }
 
-std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges) {
+std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
+                                           const ConstantRules& rules) {
   std::vector<OtherMaterial> found;
   for (int material = 0; material < static_cast<int>(kConstantMaterials.size()); ++material) {
     const std::optional<double> log_e = log_modulus(observations, material);
-    const auto [low, high] = searched_bounds(ranges.base_modulus[material], true);
+    const auto [low, high] = searched_bounds(ranges.base_modulus[material], true, rules);
     if (log_e && (*log_e < low || *log_e > high)) found.push_back({material, std::exp(*log_e)});
   }
   return found;

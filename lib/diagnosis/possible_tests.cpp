@@ -17,8 +17,6 @@ namespace {
 
 using tester::TestKind;
 
-constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
-constexpr int kConditionTwins = 3;      // designs of a test that are also tested under other conditions
 constexpr double kCouponStrain = 0.02;  // also in the words of possible_tests()
 
 /// Groups of layouts that are not coupons, those of most replicates first.
@@ -38,13 +36,13 @@ struct OtherRate {
 
 /// Ten times the usual rate, and where measured rates lie far apart the middle of the widest gap: relaxation with a
 /// time in between shows there.
-std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s) {
-  constexpr double kFarApart = 100.0;
-  std::vector<OtherRate> rates = {{kSecondRate * usual_per_s, "ten times as fast"}};
+std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s,
+                                   const TestRules& rules) {
+  std::vector<OtherRate> rates = {{rules.second_rate * usual_per_s, "ten times as fast"}};
   std::set<double> measured;
   for (const Observation& g : observations.groups)
     if (g.test == test) measured.insert(g.conditions.strain_rate_per_s);
-  double widest = kFarApart, middle = 0.0;
+  double widest = rules.far_apart, middle = 0.0;
   for (auto rate = measured.begin(); rate != measured.end() && std::next(rate) != measured.end(); ++rate)
     if (const double gap = *std::next(rate) / *rate; gap > widest) widest = gap, middle = *rate * std::sqrt(gap);
   if (middle > 0.0) rates.push_back({middle, "at a rate between those measured"});
@@ -52,7 +50,7 @@ std::vector<OtherRate> other_rates(const Observations& observations, TestKind te
 }
 
 /// Turned twins of all layouts; faster and thinner ones of the most measured of each test.
-std::vector<PossibleTest> twins(const Observations& observations) {
+std::vector<PossibleTest> twins(const Observations& observations, const TestRules& rules) {
   std::vector<PossibleTest> possible;
   const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
   std::map<TestKind, int> twins_of;
@@ -63,10 +61,11 @@ std::vector<PossibleTest> twins(const Observations& observations) {
     };
     const double orientation_deg = g->conditions.orientation_deg;
     twin("a twin printed turned by 90 degrees").orientation_deg = orientation_deg == 0.0 ? 90.0 : 0.0;
-    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= kConditionTwins) continue;
-    for (const OtherRate& rate : other_rates(observations, g->test, g->conditions.strain_rate_per_s))
+    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= rules.condition_twins)
+      continue;
+    for (const OtherRate& rate : other_rates(observations, g->test, g->conditions.strain_rate_per_s, rules))
       twin(fmt::format("a twin pulled {}", rate.words)).strain_rate_per_s = rate.strain_rate_per_s;
-    twin("a twin of half the thickness").thickness_mm *= kSecondThickness;
+    twin("a twin of half the thickness").thickness_mm *= rules.second_thickness;
   }
   return possible;
 }
@@ -86,9 +85,9 @@ std::vector<PossibleTest> layout_coupons(TestKind test, const tester::TestCondit
   return possible;
 }
 
-std::vector<PossibleTest> homogeneous_coupons(const Observations& observations) {
+std::vector<PossibleTest> homogeneous_coupons(const Observations& observations, const TestRules& rules) {
   const tester::TestConditions usual = usual_conditions(observations, TestKind::tensile);
-  std::vector<OtherRate> rates = other_rates(observations, TestKind::tensile, usual.strain_rate_per_s);
+  std::vector<OtherRate> rates = other_rates(observations, TestKind::tensile, usual.strain_rate_per_s, rules);
   rates.insert(rates.begin(), {usual.strain_rate_per_s, ""});
   std::vector<PossibleTest> possible;
   for (const double fraction : {1.0, 0.5, 0.0}) {
@@ -128,13 +127,13 @@ Observation group_of(const PossibleTest& test, int replicates) {
   return group;
 }
 
-std::vector<PossibleTest> possible_tests(const Observations& observations) {
-  std::vector<PossibleTest> possible = twins(observations);
+std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules) {
+  std::vector<PossibleTest> possible = twins(observations, rules);
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
     if (std::ranges::any_of(observations.groups,
                             [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
-  std::ranges::move(homogeneous_coupons(observations), std::back_inserter(possible));
+  std::ranges::move(homogeneous_coupons(observations, rules), std::back_inserter(possible));
   std::vector<PossibleTest> left;
   for (PossibleTest& test : possible) {
     const bool measured =

@@ -34,7 +34,7 @@ Observation group_of(const PossibleTest& test, int replicates);
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
 /// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. Tests that were made
 /// already, at these conditions or within their tolerance, are left out.
-std::vector<PossibleTest> possible_tests(const Observations& observations);
+std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules);
 
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: the loading of homogeneous coupons that are ordered.
 tester::Loading coupon_loading();

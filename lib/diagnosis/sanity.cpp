@@ -47,7 +47,7 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
 }
 
 FeatureValues features_with(const Observation& group, const material::ParameterSet& set, tester::Fidelity fidelity,
-                            const DiscretisationVariant& variant) {
+                            const DiscretisationVariant& variant, const CurveReading& reading) {
   FeatureValues values;
   const tester::Simulation simulation{group.design, tester::refined(set, variant.discretisation.refinement),
                                       group.conditions, fidelity};
@@ -55,7 +55,7 @@ FeatureValues features_with(const Observation& group, const material::ParameterS
     if (const auto result = tester::test_modulus(simulation, variant.discretisation))
       value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
   } else if (const auto result = tester::test_toughness(simulation, variant.discretisation)) {
-    values = fracture_features(result->curve);
+    values = fracture_features(result->curve, reading);
   }
   return values;
 }
@@ -63,7 +63,7 @@ FeatureValues features_with(const Observation& group, const material::ParameterS
 }  // namespace
 
 std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
-                                              tester::Fidelity fidelity) {
+                                              tester::Fidelity fidelity, double numerical) {
   std::vector<DiscretisationVariant> tried = {{"", {}}};
   for (const DiscretisationVariant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
@@ -76,7 +76,7 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
                         v = static_cast<std::size_t>(job) % tried.size();
       // A static test has neither time step nor rate.
       if (test == TestKind::modulus && v != 0 && tried[v].discretisation.refinement == 1) return;
-      values[g][v] = features_with(observations.groups[groups[g]], set, fidelity, tried[v]);
+      values[g][v] = features_with(observations.groups[groups[g]], set, fidelity, tried[v], observations.reading);
     });
     for (std::size_t v = 1; v < tried.size(); ++v) {
       for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
@@ -92,7 +92,7 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
           }
         }
         if (check.allowed == 0.0) continue;
-        check.numerical = check.largest > 2.0 * check.allowed;
+        check.numerical = check.largest > numerical * check.allowed;
         checks.push_back(check);
       }
     }

@@ -50,7 +50,7 @@ std::string constants_in_words(const Diagnosis& d) {
       kConstantMaterials[*material], in_layouts_pa, in_layouts_pa / in_coupons_pa);
 }
 
-std::string summary_of(const Diagnosis& d, const Decision& decision) {
+std::string summary_of(const Diagnosis& d, const Decision& decision, const Levels& levels) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
       return fmt::format("The base model is sufficient: {} (chance of a misfit as large: {:.3f}).", decision.reason,
@@ -73,7 +73,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       break;
   }
   std::string text = fmt::format("The base model misfits, and no cause can be named: {}.", decision.reason);
-  if (lines_up(d)) {
+  if (lines_up(d, levels)) {
     text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name,
                         d.contrasts.front().statistic);
     text += constants_in_words(d);
@@ -158,10 +158,10 @@ std::string choice_in_words(const Gain& gain) {
 
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
                                   const Observations& observations, const std::vector<ModulusAtBound>& at_bounds,
-                                  const std::vector<OtherMaterial>& others,
-                                  const std::vector<std::string>& out_of_line) {
-  std::string text =
-      summary_of(diagnosis, decision) + in_words(others) + disagreement_in_words(out_of_line, diagnosis.verdict);
+                                  const std::vector<OtherMaterial>& others, const std::vector<std::string>& out_of_line,
+                                  const Procedure& procedure) {
+  std::string text = summary_of(diagnosis, decision, procedure.levels) + in_words(others) +
+                     disagreement_in_words(out_of_line, diagnosis.verdict);
   for (const SanityCheck& check : diagnosis.sanity) {
     // The element size is in the noise already, as the discretisation floor; the other choices ought not to matter at
     // all.
@@ -181,8 +181,7 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
         "differences between designs: print one design in every batch.",
         observations.disconnected_batches);
   }
-  constexpr double kNoSpecimensDo = 5e-4;
-  if (diagnosis.noise_known && diagnosis.replicate_sd < kNoSpecimensDo)
+  if (diagnosis.noise_known && diagnosis.replicate_sd < procedure.cautions.equal_replicates)
     text +=
         " Caution: replicates agree to a twentieth of a per cent, which no printed specimens do: were their means "
         "typed in for each? Enter the value of every specimen.";

@@ -24,7 +24,7 @@ std::string choice_in_words(const Gain& gain);
 /// replicates do not agree.
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
                                   const Observations& observations, const std::vector<ModulusAtBound>& at_bounds,
-                                  const std::vector<OtherMaterial>& others,
-                                  const std::vector<std::string>& out_of_line);
+                                  const std::vector<OtherMaterial>& others, const std::vector<std::string>& out_of_line,
+                                  const Procedure& procedure);
 
 }  // namespace nacre::diagnosis

@@ -32,6 +32,6 @@ struct TestChoice {
 /// the squared errors of the best test of each way, none counted as more than four standard errors: predictions of
 /// tests are not better than that. Where no chance falls any more, the largest separation comes first. A test that
 /// separates no pair by a standard error is never chosen.
-std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
+std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count, const TestRules& rules);
 
 }  // namespace nacre::diagnosis

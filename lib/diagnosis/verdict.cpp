@@ -14,9 +14,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// So far behind the best fit that no draw would let a rival catch up.
-constexpr double kOutOfReach = 60.0;
-
 template <class Value>
 std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value value) {
   std::vector<double> values;
@@ -45,9 +42,11 @@ double chance_of_misfit(const Evidence& evidence, const FittedModel& fit) {
   const Anchor anchor{
       fit, {}, contrast_directions(evidence.observations, fit.predicted), parts_of_rows(evidence.observations)};
   const std::vector<DrawStatistics> draws =
-      bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
+      bootstrap_anchor(anchor, evidence.observations, evidence.settings.procedure.names.imitated,
+                       evidence.settings.bootstraps, evidence.settings.seed + 1);
   const DrawStatistics own =
-      anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
+      anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())},
+                        evidence.settings.procedure.names.imitated);
   const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }),
                                      own.largest_contrast());
   return std::min(1.0, 2.0 * std::min(omnibus_chance(draws, own), contrast));
@@ -62,7 +61,7 @@ bool excluded_by_draws(const Evidence& evidence, const std::vector<FittedModel>&
   if (lead <= 0.0) return false;
   const RivalStatistics draws =
       bootstrap_rival(rivals, rival, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
-  return exceedance(draws.lead_of_best_other, lead) < kExclusionLevel;
+  return exceedance(draws.lead_of_best_other, lead) < evidence.settings.procedure.levels.exclusion;
 }
 
 /// Profile deviance of a model: -2 log likelihood with its own discretisation error (directions that all models share
@@ -88,7 +87,7 @@ Fitting fitting_among(const Evidence& evidence, const std::vector<FittedModel>& 
   for (const FittedModel& rival : rivals) least = std::min(least, rival.chi2);
   Fitting fitting;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
-    if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
+    if (!usable(rivals[k], p_fit[k], evidence.settings.procedure.levels.exclusion)) continue;
     fitting.models.push_back(rivals[k]);
     fitting.excluded_by_draws.push_back(excluded_by_draws(evidence, rivals, k, rivals[k].chi2 - least));
     const bool elements_matter = evidence.observations.has_shared_discretisation();
@@ -106,11 +105,12 @@ Fitting fitting_among(const Evidence& evidence, const std::vector<FittedModel>& 
 std::vector<FittedModel> confidence_set(const Evidence& evidence, const std::vector<FittedModel>& rivals,
                                         const std::vector<double>& p_fit) {
   const Fitting fitting = fitting_among(evidence, rivals, p_fit);
+  const NameRules& rules = evidence.settings.procedure.names;
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < fitting.models.size(); ++k) {
     const bool drawn_out = fitting.excluded_by_draws[k];
     const bool out = evidence.observations.has_shared_discretisation()
-                         ? fitting.behind[k] > (drawn_out ? kOwnLead : kCertainLead)
+                         ? fitting.behind[k] > rules.lead * (drawn_out ? 1.0 : rules.certain_lead)
                          : drawn_out;
     if (!out) order.push_back(k);
   }
@@ -123,14 +123,14 @@ std::vector<FittedModel> confidence_set(const Evidence& evidence, const std::vec
 /// Effects that pairs are built on, the best first: alone, a collinear effect may explain more than the cause, which
 /// needs a second effect.
 std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
-  constexpr std::size_t kMost = 3;
-  constexpr double kLeastShare = 0.5;  // of what the best one explains
+  const NameRules& rules = evidence.settings.procedure.names;
   std::vector<std::size_t> anchors(evidence.singles.size());
   std::iota(anchors.begin(), anchors.end(), std::size_t{0});
   std::ranges::stable_sort(anchors, {}, [&](std::size_t k) { return evidence.singles[k].chi2; });
   const auto drop = [&](std::size_t k) { return evidence.base.fit.chi2 - evidence.singles[k].chi2; };
-  std::erase_if(anchors, [&, best = drop(anchors.front())](std::size_t k) { return drop(k) < kLeastShare * best; });
-  anchors.resize(std::min(anchors.size(), kMost));
+  std::erase_if(anchors,
+                [&, best = drop(anchors.front())](std::size_t k) { return drop(k) < rules.pair_share * best; });
+  anchors.resize(std::min(anchors.size(), static_cast<std::size_t>(rules.pair_anchors)));
   return anchors;
 }
 
@@ -140,16 +140,21 @@ std::vector<FittedModel> significant_pairs(const Evidence& evidence, const Fitte
   for (const std::string& effect : evidence.effects) {
     if (effect != single.effects.front()) others.push_back(effect);
   }
-  const Anchor anchor{single, signatures_on(evidence.model, single, others), {}, {}};
-  const std::vector<double> largest = over_draws(
-      bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
-      [](const DrawStatistics& d) { return d.largest_drop(); });
+  const Anchor anchor{
+      single, signatures_on(evidence.model, single, others, evidence.settings.procedure.fit.sizes), {}, {}};
+  const std::vector<double> largest =
+      over_draws(bootstrap_anchor(anchor, evidence.observations, evidence.settings.procedure.names.imitated,
+                                  evidence.settings.bootstraps, evidence.settings.seed + 3),
+                 [](const DrawStatistics& d) { return d.largest_drop(); });
   std::vector<FittedModel> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    FittedModel pair = restarted(
-        evidence, fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
-                            best_initial_guess(evidence.model, evidence.observations, single, anchor.signatures[k])));
-    if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
+    FittedModel pair =
+        restarted(evidence, fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit,
+                                      {single.effects.front(), others[k]},
+                                      best_initial_guess(evidence.model, evidence.observations, single,
+                                                         anchor.signatures[k], evidence.settings.procedure.fit)));
+    if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.procedure.levels.name)
+      pairs.push_back(std::move(pair));
   }
   return pairs;
 }
@@ -158,14 +163,15 @@ std::vector<FittedModel> significant_pairs(const Evidence& evidence, const Fitte
 /// optimum that its first effect missed alone, and its gain must not be better optimisation. True when the effect fits
 /// better now.
 bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<FittedModel>& pairs) {
-  constexpr double kBetter = 1.0;
+  const FitRules& rules = evidence.settings.procedure.fit;
   FittedModel& single = evidence.singles[effect];
   const double before = single.chi2;
   for (const FittedModel& pair : pairs) {
-    FittedModel alone = fit_model(evidence.model, evidence.observations, single.effects, pair.u.head(single.u.size()));
+    FittedModel alone =
+        fit_model(evidence.model, evidence.observations, rules, single.effects, pair.u.head(single.u.size()));
     if (alone.chi2 < single.chi2) single = std::move(alone);
   }
-  return single.chi2 < before - kBetter;
+  return single.chi2 < before - rules.better_alone;
 }
 
 /// Pairs on all anchors, each once; nothing when an anchor was fitted better on the way.
@@ -224,7 +230,7 @@ std::size_t best_single(const Evidence& evidence) {
 std::vector<double> chances_of_misfit(const Evidence& evidence, std::size_t best) {
   std::vector<double> chances;
   for (const FittedModel& single : evidence.singles) {
-    const bool in_reach = single.chi2 <= evidence.singles[best].chi2 + kOutOfReach;
+    const bool in_reach = single.chi2 <= evidence.singles[best].chi2 + evidence.settings.procedure.fit.far_behind;
     chances.push_back(in_reach ? chance_of_misfit(evidence, single) : 0.0);
   }
   return chances;
@@ -250,9 +256,9 @@ std::optional<FittedModel> base_of_other_materials(const Evidence& evidence,
     range.maximum *= ratio;
   }
   const FeatureModel wider(evidence.observations, basis, evidence.settings.fidelity, evidence.model.surface());
-  FittedModel fit =
-      fit_model(wider, evidence.observations, {}, wider.base_map().coordinates(evidence.base.fit.parameters));
-  if (chance_of_misfit(evidence, fit) < evidence.settings.unexplained_level) return std::nullopt;
+  FittedModel fit = fit_model(wider, evidence.observations, evidence.settings.procedure.fit, {},
+                              wider.base_map().coordinates(evidence.base.fit.parameters));
+  if (chance_of_misfit(evidence, fit) < evidence.settings.procedure.levels.unexplained) return std::nullopt;
   return fit;
 }
 
@@ -294,8 +300,8 @@ Decision decide_among_effects(Evidence& evidence) {
   const double best_p = decision.p_family_wise.empty()
                             ? 1.0
                             : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
-  if (best_p > evidence.settings.name_level) {
-    if (decision.p_misfit >= evidence.settings.unexplained_level) {
+  if (best_p > evidence.settings.procedure.levels.name) {
+    if (decision.p_misfit >= evidence.settings.procedure.levels.unexplained) {
       decision.reason = "no known effect improves the fit beyond chance, and the residuals are noise";
       return decision;
     }
@@ -307,9 +313,10 @@ Decision decide_among_effects(Evidence& evidence) {
   const std::size_t best = best_single(evidence);
   decision.p_fit = chances_of_misfit(evidence, best);
   // A second effect would only make up for the bound of the first one.
-  if (decision.p_fit[best] >= evidence.settings.unexplained_level && evidence.singles[best].extension_on_bound)
+  if (decision.p_fit[best] >= evidence.settings.procedure.levels.unexplained &&
+      evidence.singles[best].extension_on_bound)
     return unexplained(std::move(decision), {evidence.singles[best]}, at_its_bound(evidence.singles[best]));
-  if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
+  if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.procedure.levels.unexplained)) {
     report(0.85, "comparing rival effects");
     std::vector<FittedModel> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
     return settled(evidence, std::move(decision), std::move(possible),
@@ -320,8 +327,8 @@ Decision decide_among_effects(Evidence& evidence) {
   if (!pairs) return decide_among_effects(evidence);
   std::vector<double> pair_p;
   for (const FittedModel& pair : *pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
-  const bool some_pair_fits =
-      std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
+  const bool some_pair_fits = std::any_of(
+      pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.procedure.levels.unexplained; });
   std::vector<FittedModel> possible =
       some_pair_fits ? confidence_set(evidence, *pairs, pair_p) : std::vector<FittedModel>{};
   if (possible.empty()) {

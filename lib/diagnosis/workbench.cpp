@@ -14,13 +14,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Opposite pairs of runs around the centre, and how far they lie, in log units of every constant.
-constexpr int kPairs = 14;
-constexpr double kSpread = 0.3;
-/// Sizes at which effects are simulated, as shares of their range, and how far eta is moved meanwhile.
-constexpr double kRunSizes[] = {0.1, 0.3, 0.6};
-constexpr double kJitter = 0.05;
-
 void move_eta(material::ToughnessParameters& parameters, double spread, double sign,
               const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
@@ -36,29 +29,31 @@ std::vector<double> normals(RandomStream& random) {
 }
 
 /// The centre, pairs around it, and every effect of the material on fractures at several sizes.
-std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& centre, std::uint64_t seed) {
+std::vector<material::ParameterSet> planned_runs(const Basis& basis, const EmulatorRules& rules, std::uint64_t seed) {
+  const material::ParameterSet& centre = basis.centre;
   std::vector<material::ParameterSet> sets = {centre};
   RandomStream random(seed, "diagnosis/runs");
-  for (int k = 0; k < kPairs; ++k) {
+  for (int k = 0; k < rules.pairs; ++k) {
     const std::vector<double> normal = normals(random);
     for (const double sign : {1.0, -1.0}) {
       sets.push_back(centre);
-      move_eta(sets.back().toughness, kSpread, sign, normal);
+      move_eta(sets.back().toughness, rules.spread, sign, normal);
     }
   }
   for (const material::Effect& effect : material::effect_library()) {
     if (!effect.acts_on_toughness || effect.side != material::EffectSide::material) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
-    const CoordinateMap map(Basis{.modulus = false, .toughness = true, .coupon = false, .centre = centre}, names);
+    const CoordinateMap map(
+        Basis{.modulus = false, .toughness = true, .coupon = false, .centre = centre, .rules = basis.rules}, names);
     const int own = map.base_count();
     for (const double sign : {1.0, -1.0}) {
       if (sign < 0.0 && map.lower(own) >= 0.0) continue;
-      for (const double size : kRunSizes) {
+      for (const double size : rules.effect_sizes) {
         Eigen::VectorXd u = map.coordinates(centre);
         u[own] = std::clamp(sign * size, map.lower(own), map.upper(own));
         for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
         sets.push_back(map.parameters(u));
-        move_eta(sets.back().toughness, kJitter, 1.0, normals(random));
+        move_eta(sets.back().toughness, rules.jitter, 1.0, normals(random));
       }
     }
   }
@@ -66,7 +61,8 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
 }
 
 /// Effects that have a signature in these rows, in the order of material::effect_library().
-std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
+std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
+                                        const FitRules& rules) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
   std::vector<Eigen::Index> rows(observations.size());
@@ -83,7 +79,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
     const int own = map.base_count();
     for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
     Eigen::VectorXd change = Eigen::VectorXd::Zero(observations.size());
-    for (const double size : {0.1, 0.6}) {
+    for (const double size : rules.probes) {
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
       change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
@@ -95,9 +91,10 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
 }  // namespace
 
 Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
-    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation)),
+    : observations_(
+          observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, settings.procedure)),
       fidelity_(settings.fidelity) {
-  if (const auto why = why_too_few(observations_.groups)) throw TooFewSpecimens(*why);
+  if (const auto why = why_too_few(observations_.groups, settings.procedure.noise)) throw TooFewSpecimens(*why);
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();
   if (observations_.has(tester::TestKind::toughness)) {
@@ -108,16 +105,17 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
     if (settings.search_budget > 0)
       centre.toughness =
           runs_->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
-    surface_ = std::make_unique<FractureSurface>(observations_, *runs_, centre.toughness);
+    surface_ = std::make_unique<FractureSurface>(observations_, *runs_, centre.toughness, settings.procedure.emulator);
   }
-  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre, settings.ranges),
-                                          settings.fidelity, surface_.get());
+  const Basis basis = basis_for(observations_, centre, settings.ranges, settings.procedure.constants);
+  model_ = std::make_unique<FeatureModel>(observations_, basis, settings.fidelity, surface_.get());
   if (runs_) simulate_around(settings);
-  effects_ = acting_effects(*model_, observations_);
+  effects_ = acting_effects(*model_, observations_, settings.procedure.fit);
 }
 
 void Workbench::simulate_around(const DiagnosisSettings& settings) {
-  const std::vector<material::ParameterSet> sets = planned_runs(model_->basis().centre, settings.seed);
+  const std::vector<material::ParameterSet> sets =
+      planned_runs(model_->basis(), settings.procedure.emulator, settings.seed);
   const double all = static_cast<double>(sets.size() * runs_->groups().size());
   int count = 0;
   runs_->add(sets, [&] {
@@ -153,7 +151,7 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
     int count = 0;
     for (std::size_t r = 0; r < surface_->rows().size(); ++r) {
       const SurfaceRow& row = surface_->rows()[r];
-      const auto value = value_of(shown_features(run.predictions[row.group], {}), row.feature);
+      const auto value = value_of(shown_features(run.predictions[row.group], {}, observations_.reading), row.feature);
       const double variance = surface_->cross_validated_variance()[r];
       if (!value || variance <= 0.0) continue;
       squares += std::pow(*value - expected[own - sets.begin()][r], 2) / variance;

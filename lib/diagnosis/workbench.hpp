@@ -40,10 +40,4 @@ class Workbench {
   tester::Fidelity fidelity_;
 };
 
-/// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
-/// needed.
-inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
-/// Index of the typical size among them, at which visibility is judged.
-inline constexpr int kTypicalSize = 2;
-
 }  // namespace nacre::diagnosis

@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/statistics.hpp"
-#include "diagnosis/candidates.hpp"
-#include "diagnosis/settings.hpp"
+#include "diagnosis/procedure.hpp"
 #include "diagnosis/summary.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
@@ -62,7 +61,7 @@ std::string trend_in_words(const Diagnosis& d) {
     return "The residuals, measured less predicted, are of the size of scatter and discretisation error, and follow "
            "nothing that was examined.";
   }
-  if (!diagnosis::lines_up(d)) {
+  if (!diagnosis::lines_up(d, diagnosis::Levels{})) {
     return fmt::format("After the best fit of the base model the residuals follow nothing that was examined{}{}.",
                        d.loudest.empty() ? "" : "; the largest are those of ", escaped(d.loudest));
   }
@@ -148,7 +147,7 @@ std::string status_cell(const CandidateEffect& c, Verdict verdict) {
   if (c.status == "in_set") return fmt::format("<strong>{}</strong>", status);
   if (c.status == "invisible") return status + " (it may act all the same)";
   if (c.status != "excluded") return status + " (these tests cannot show it)";
-  if (c.p_family_wise > diagnosis::kNameLevel) return status + " (no sign of it)";
+  if (c.p_family_wise > diagnosis::Levels{}.name) return status + " (no sign of it)";
   return status + (verdict == Verdict::unexplained ? " (improves the fit, but cannot be named)"
                                                    : " (improves the fit, but others explain the data better)");
 }
@@ -196,7 +195,7 @@ ExhibitTable candidate_table(const Diagnosis& d) {
 Exhibit candidate_exhibit(const Diagnosis& d) {
   Exhibit exhibit{.id = "rivals", .heading = "Candidate effects: what else could explain it"};
   exhibit.tables.push_back(candidate_table(d));
-  exhibit.fine_print.push_back(fmt::format(kCandidateColumns, diagnosis::kVisibleSignal));
+  exhibit.fine_print.push_back(fmt::format(kCandidateColumns, diagnosis::NameRules{}.visible_signal));
   return exhibit;
 }
 

@@ -41,7 +41,7 @@ TEST_F(Plans, AnUnmodelledCauseIsCountedLikeAKnownEffect) {
   // The same change of the same specimens: as a signature of an effect, and as a difference between two sets of values.
   const SyntheticSet set{.patterns = 10, .twins = 3, .noise = 0.0};
   const material::Effect& mixing = *material::find_effect("droplet_mixing");
-  const double typical = material::value_at_strength(mixing.parameters.front(), kSizes[kTypicalSize]);
+  const double typical = material::value_at_strength(mixing.parameters.front(), FitRules{}.sizes[FitRules{}.typical]);
   const auto plain = synthetic_specimens(set, settings_.start),
              changed = synthetic_specimens(set, with("droplet_mixing", typical));
   const double s = signal(plain, changed);
@@ -70,8 +70,8 @@ TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   const auto plain = pulled(settings_.start);
   const PlannedEffect flow = planned(plain, "rigid_yield");
   ASSERT_TRUE(flow.smallest_seen.has_value());
-  EXPECT_GT(signal(plain, pulled(with("rigid_yield", *flow.smallest_seen))), kVisibleSignal);
-  EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), kVisibleSignal);
+  EXPECT_GT(signal(plain, pulled(with("rigid_yield", *flow.smallest_seen))), NameRules{}.visible_signal);
+  EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), NameRules{}.visible_signal);
 }
 
 // A machine that gives way looks nearly like softer materials on specimens of all stiffnesses; the rest is visible.
@@ -87,7 +87,8 @@ TEST_F(Plans, AnEffectThatTheBaseMostlyImitatesIsSeenByTheRest) {
   const PlannedEffect compliance = planned(plain, "machine_compliance");
   EXPECT_GT(compliance.absorption, 0.95);
   ASSERT_TRUE(compliance.smallest_seen.has_value());
-  EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), kVisibleSignal, 0.1 * kVisibleSignal);
+  EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), NameRules{}.visible_signal,
+              0.1 * NameRules{}.visible_signal);
 }
 
 // Thin twins of 1.5 mm, where a plan proposes such of 1.6 mm: what the set shows does not depend on which of the names

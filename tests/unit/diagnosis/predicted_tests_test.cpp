@@ -57,7 +57,7 @@ struct ExactData {
   }
   double chi2(const FittedModel& truth, const FittedModel& fitted) {
     observations.values = model.predict(model.map(truth.effects), truth.u);
-    return fit_model(model, observations, fitted.effects, fitted.u).chi2;
+    return fit_model(model, observations, {}, fitted.effects, fitted.u).chi2;
   }
   /// Of the wrong model beyond the true one: the prior of the constants bears on both.
   double misfit(const FittedModel& truth, const FittedModel& wrong) { return chi2(truth, wrong) - chi2(truth, truth); }
@@ -71,7 +71,7 @@ const FittedModel& single(const Evidence& evidence, const std::string& effect) {
 std::vector<PossibleTest> few_tests(const Observations& observations) {
   std::vector<PossibleTest> few;
   std::map<AddedTest, int> counts;
-  for (const PossibleTest& test : possible_tests(observations))
+  for (const PossibleTest& test : possible_tests(observations, {}))
     if (test.test == tester::TestKind::modulus && test.kind != AddedTest::twin && counts[test.kind]++ < 2)
       few.push_back(test);
   return few;
@@ -118,7 +118,7 @@ TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
 
 TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
   const Evidence& evidence = gathered_->evidence;
-  std::vector<PossibleTest> twins = possible_tests(evidence.observations);
+  std::vector<PossibleTest> twins = possible_tests(evidence.observations, {});
   std::erase_if(twins, [](const PossibleTest& test) { return test.kind != AddedTest::twin; });
   const std::vector<FittedModel> models = {single(evidence, "droplet_mixing"),
                                            single(evidence, "interface_anisotropy")};
