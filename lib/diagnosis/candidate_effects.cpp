@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace nacre::diagnosis {
 namespace {
 
@@ -30,14 +28,14 @@ bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change
   });
 }
 
-std::optional<std::string> why_too_few(std::span<const Observation> groups, const NoiseRules& rules) {
-  const auto layouts = std::ranges::count_if(groups, [](const Observation& g) { return g.design.layout() != nullptr; });
-  const auto coupons = std::ranges::count(groups, TestKind::tensile, &Observation::test);
-  if (layouts >= rules.fewest_groups || coupons >= rules.fewest_coupons) return std::nullopt;
-  return fmt::format(
-      "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
-      "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
-      rules.fewest_groups, rules.fewest_coupons, layouts, coupons);
+std::optional<TooFew> too_few(std::span<const Observation> groups, const NoiseRules& rules) {
+  const TooFew few{.layouts = static_cast<int>(std::ranges::count_if(
+                       groups, [](const Observation& g) { return g.design.layout() != nullptr; })),
+                   .coupons = static_cast<int>(std::ranges::count(groups, TestKind::tensile, &Observation::test)),
+                   .layouts_needed = rules.fewest_groups,
+                   .coupons_needed = rules.fewest_coupons};
+  if (few.layouts >= few.layouts_needed || few.coupons >= few.coupons_needed) return std::nullopt;
+  return few;
 }
 
 }  // namespace nacre::diagnosis

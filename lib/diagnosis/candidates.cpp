@@ -63,7 +63,6 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     candidate.name = effect.name;
     const auto found = std::find(evidence.effects.begin(), evidence.effects.end(), effect.name);
     if (found == evidence.effects.end()) {
-      candidate.status = "not_applicable";
       candidates.push_back(candidate);
       continue;
     }
@@ -90,21 +89,21 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
     const bool visible = typical.projected >= rules.names.visible_signal;
     const bool noticed = candidate.p_family_wise <= rules.levels.name;
-    candidate.status = holds(decision.possible, candidate.name) ? "in_set"
-                       : visible || noticed                     ? "excluded"
-                                                                : "invisible";
+    candidate.status = holds(decision.possible, candidate.name) ? CandidateStatus::in_set
+                       : visible || noticed                     ? CandidateStatus::excluded
+                                                                : CandidateStatus::invisible;
     candidates.push_back(candidate);
   }
   return candidates;
 }
 
-std::string common_ground(const std::vector<std::vector<std::string>>& possible) {
-  if (possible.empty()) return "";
+CommonGround common_ground(const std::vector<std::vector<std::string>>& possible) {
+  if (possible.empty()) return {};
   // An effect that is in every model is certain, whatever else it comes with.
   for (const std::string& name : possible.front()) {
     if (std::all_of(possible.begin(), possible.end(),
                     [&](const auto& model) { return std::find(model.begin(), model.end(), name) != model.end(); }))
-      return "effect " + name;
+      return {CommonGround::Kind::effect, name};
   }
   std::set<std::string_view> families;
   std::set<material::EffectSide> sides;
@@ -115,9 +114,10 @@ std::string common_ground(const std::vector<std::vector<std::string>>& possible)
       sides.insert(effect->side);
     }
   }
-  if (families.size() == 1) return fmt::format("family {}", *families.begin());
-  if (sides.size() == 1) return *sides.begin() == material::EffectSide::material ? "material side" : "measurement side";
-  return "";
+  if (families.size() == 1) return {CommonGround::Kind::family, std::string(*families.begin())};
+  if (sides.size() > 1) return {};
+  return {*sides.begin() == material::EffectSide::material ? CommonGround::Kind::material_side
+                                                           : CommonGround::Kind::measurement_side};
 }
 
 }  // namespace nacre::diagnosis

@@ -19,8 +19,7 @@ std::optional<double> smallest_strength(std::span<const double> strengths, const
 /// noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that act.
 std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decision& decision);
 
-/// The most specific property that all possible models share: an effect, a family, the material or measurement side;
-/// empty: none.
-std::string common_ground(const std::vector<std::vector<std::string>>& possible);
+/// The most specific property that all possible models share.
+CommonGround common_ground(const std::vector<std::vector<std::string>>& possible);
 
 }  // namespace nacre::diagnosis

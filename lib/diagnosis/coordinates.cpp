@@ -1,8 +1,5 @@
 #include "diagnosis/coordinates.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -94,14 +91,6 @@ std::vector<ModulusAtBound> CoordinateMap::moduli_at_bounds(const Eigen::VectorX
     found.push_back({c.index, value(i, u[i]), c.block == Block::coupon});
   }
   return found;
-}
-
-std::string in_words(const std::vector<ModulusAtBound>& moduli) {
-  std::vector<std::string> words;
-  for (const ModulusAtBound& each : moduli)
-    words.push_back(fmt::format("{} = {:.3g} Pa{}", material::modulus_parameter_names()[each.material], each.modulus_pa,
-                                each.of_coupons ? " of coupons" : ""));
-  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/material_constants.hpp"
 #include "diagnosis/procedure.hpp"
 #include "material/extensions.hpp"
 #include "material/ranges.hpp"
@@ -38,15 +39,6 @@ struct Bounds {
   double low = 0.0, high = 0.0;
 };
 Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic, const ConstantRules& rules);
-
-/// A Young's modulus of a fit that is at its bound: no prior would leave it there, the ranges are those of other inks.
-struct ModulusAtBound {
-  int material = 0;  ///< soft, rigid, interface
-  double modulus_pa = 0.0;
-  bool of_coupons = false;  ///< in homogeneous specimens, else in layouts
-};
-/// "e_vw_pa = 1.39e+09 Pa, e_tb_pa = 3e+05 Pa of coupons"
-std::string in_words(const std::vector<ModulusAtBound>& moduli);
 
 /// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a
 /// factor e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.

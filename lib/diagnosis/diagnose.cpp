@@ -11,25 +11,25 @@
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/other_materials.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
-#include "diagnosis/summary.hpp"
 #include "diagnosis/verdict.hpp"
+#include "diagnosis/words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
 /// The specimens of the rows of a part.
-std::string specimens_in_words(const Observations& observations, std::size_t part) {
+RowsOf rows_of(const Observations& observations, std::size_t part) {
   const std::vector<std::size_t> parts = parts_of_rows(observations);
   const auto found = std::ranges::find(parts, part);
-  if (found == parts.end()) return "";
+  if (found == parts.end()) return {};
   const DataRow& row = observations.rows[found - parts.begin()];
-  if (row.kind == RowKind::constant) return "constants of layouts against those of coupons";
-  if (row.test == tester::TestKind::modulus) return "moduli";
-  if (row.test == tester::TestKind::toughness) return "notched specimens";
-  if (row.group < 0) return "coupons";
-  return observations.groups[row.group].material() + " coupons";
+  if (row.kind == RowKind::constant) return {RowsOf::Kind::constants};
+  if (row.test == tester::TestKind::modulus) return {RowsOf::Kind::moduli};
+  if (row.test == tester::TestKind::toughness) return {RowsOf::Kind::notched};
+  return {RowsOf::Kind::coupons, row.group < 0 ? "" : observations.groups[row.group].material()};
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const FittedModel& base,
@@ -120,11 +120,15 @@ double shared_discretisation_sd(const Observations& observations) {
 /// Verdict, noise of the data, base fit and candidates.
 void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& decision) {
   const Observations& observations = evidence.observations;
+  diagnosis.contrast_level = evidence.settings.procedure.levels.contrast;
+  diagnosis.assumed_sd = evidence.settings.procedure.noise.assumed_sd;
   diagnosis.verdict = decision.verdict;
+  diagnosis.finding = decision.finding;
+  diagnosis.untold = decision.untold;
   diagnosis.p_misfit = decision.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
-  diagnosis.loudest = specimens_in_words(observations, decision.loudest_part);
+  diagnosis.loudest = rows_of(observations, decision.loudest_part);
   const auto [feature, test] = shown_scatter(observations);
   diagnosis.replicate_sd = observations.replicate_sd(feature, test);
   diagnosis.noise_known = observations.replicate_dof(test) > 0;
@@ -135,6 +139,24 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   for (const FittedModel& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
+}
+
+/// Of the data and their noise.
+Cautions cautions_of(const Observations& observations, const Diagnosis& diagnosis, const DiagnosisSettings& settings) {
+  Cautions cautions;
+  cautions.other_materials = other_materials(observations, settings.ranges, settings.procedure.constants);
+  cautions.nothing_replicated = true;
+  for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile}) {
+    if (!observations.has(test)) continue;
+    if (observations.replicate_dof(test) > 0)
+      cautions.nothing_replicated = false;
+    else
+      cautions.unreplicated.push_back(test);
+  }
+  cautions.replicates_are_equal =
+      diagnosis.noise_known && diagnosis.replicate_sd < settings.procedure.cautions.equal_replicates;
+  cautions.disconnected_batches = observations.disconnected_batches;
+  return cautions;
 }
 
 }  // namespace
@@ -179,7 +201,6 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   }
   report(0.95, "choosing the next experiments");
   const CoordinateMap map = evidence.model.map(decided.effects);
-  const std::vector<ModulusAtBound> at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.next_experiments =
       next_experiments(evidence, models_to_separate(evidence, decision), settings.procedure.tests);
   if (!decision.untold.empty())
@@ -191,10 +212,10 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   if (settings.check_discretisation)
     diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity,
                                             settings.procedure.cautions.numerical);
-  diagnosis.summary =
-      summary_with_cautions(diagnosis, decision, observations, at_bounds,
-                            other_materials(observations, settings.ranges, settings.procedure.constants),
-                            groups_out_of_line(specimens), settings.procedure);
+  diagnosis.cautions = cautions_of(observations, diagnosis, settings);
+  diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
+  diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
+  diagnosis.summary = summary_of(diagnosis);
   report(1.0, "done");
   return diagnosis;
 }

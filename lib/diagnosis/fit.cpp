@@ -4,18 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "material/effect_words.hpp"
-
 namespace nacre::diagnosis {
-
-std::string in_words(const std::vector<std::string>& effects) {
-  if (effects.empty()) return "the base model";
-  return material::effect_in_words(fmt::format("{}", fmt::join(effects, " with ")));
-}
-
 namespace {
 
 /// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of

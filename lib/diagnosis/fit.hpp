@@ -9,9 +9,6 @@
 
 namespace nacre::diagnosis {
 
-/// Extensions in words: "droplet mixing with rigid yield"; "the base model" for none.
-std::string in_words(const std::vector<std::string>& effects);
-
 /// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a
 /// wide Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
 struct FittedModel {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
@@ -90,8 +88,7 @@ NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) 
   const NoisyData data{observations.values, Whitener(observations.covariance())};
   const double signal = weakest_signal(evidence, model);
   const int count = static_cast<int>(model.effects.size());
-  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p,
-                  .objection = {}};
+  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p};
   std::string contrast, condition;
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
     const Anchor anchor = anchor_without(evidence, model, effect);
@@ -100,26 +97,21 @@ NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) 
     if (contrast.empty()) contrast = contrast_instead(observations, anchor, data, model, rules);
     if (condition.empty()) condition = condition_instead(observations, anchor, data, model, rules);
   }
-  const std::string_view its = count > 1 ? "the signature of one of them" : "its signature";
+  const auto nearest = [&](Reason reason) { return Finding{.reason = reason, .nearest = model.effects}; };
   if (signal < rules.nameable_signal()) {
-    tests.objection = fmt::format(
-        "{} has a signal-to-noise ratio of only {:.1f}: an unmodelled cause could look the same (a name needs {:.1f}, "
-        "more replicates raise the ratio)",
-        its, signal, rules.nameable_signal());
+    tests.objection = nearest(Reason::weak_signal);
+    tests.objection->value = signal;
+    tests.objection->needed = rules.nameable_signal();
   } else if (!contrast.empty()) {
-    tests.objection =
-        fmt::format("the contrast \"{}\" alone explains more: an unmodelled cause acts along it", contrast);
+    tests.objection = nearest(Reason::contrast);
+    tests.objection->along = contrast;
   } else if (!condition.empty()) {
-    tests.objection = fmt::format(
-        "one factor on all specimens of the same {} explains these data as well: an unmodelled cause may act along it "
-        "(homogeneous coupons of each {} would show which)",
-        condition, condition);
+    tests.objection = nearest(Reason::condition);
+    tests.objection->along = condition;
   } else if (tests.p_outside > discrepancy_level) {
-    tests.objection = fmt::format(
-        "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, favour "
-        "a "
-        "known effect by as much with probability {:.2f} (a name needs {:.2f} or less)",
-        tests.p_outside, discrepancy_level);
+    tests.objection = nearest(Reason::discrepancy);
+    tests.objection->value = tests.p_outside;
+    tests.objection->needed = discrepancy_level;
   }
   return tests;
 }

@@ -9,6 +9,7 @@
 
 #include "diagnosis/features.hpp"
 #include "diagnosis/fracture_discretisation.hpp"
+#include "diagnosis/material_constants.hpp"
 #include "diagnosis/procedure.hpp"
 #include "measurement/specimen_record.hpp"
 
@@ -37,9 +38,6 @@ enum class RowKind {
   print_order,  ///< change per specimen printed, inside batches
   constant,     ///< log of E of a base material in layouts over E of its homogeneous specimens, expected to be 0
 };
-
-/// Materials that have a row of RowKind::constant, in the order of material::ModulusVector.
-inline constexpr std::array<std::string_view, 3> kConstantMaterials = {"soft", "rigid", "interface"};
 
 /// One row of the data.
 struct DataRow {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "diagnosis/coordinates.hpp"
 
 namespace nacre::diagnosis {
@@ -53,16 +51,6 @@ material::ParameterRanges ranges_over(material::ParameterRanges ranges, const st
     stretch_over(ranges.microstructure_modulus[other.material], other.modulus_pa);
   }
   return ranges;
-}
-
-std::string in_words(const std::vector<OtherMaterial>& materials) {
-  std::string text;
-  for (const OtherMaterial& other : materials)
-    text += fmt::format(
-        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
-        "it, or an error of the machine): layouts are judged against what was measured.",
-        kConstantMaterials[other.material], other.modulus_pa);
-  return text;
 }
 
 }  // namespace nacre::diagnosis

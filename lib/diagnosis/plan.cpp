@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/result.hpp"
@@ -12,6 +11,7 @@
 #include "diagnosis/features.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
+#include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
 #include "tester/modulus.hpp"
 #include "tester/tensile.hpp"
@@ -77,28 +77,13 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   return specimen;
 }
 
-/// The bundle that a test belongs to, in words.
-std::string bundle_of(const PossibleTest& test) {
-  switch (test.kind) {
-    case AddedTest::checkerboard:
-      return "checkerboards of period 1, 2 and 5";
-    case AddedTest::laminate:
-      return "laminates of period 1, 2 and 5, across and along the pull";
-    case AddedTest::homogeneous:
-      return "homogeneous coupons at several rates, unloaded on the way";
-    case AddedTest::twin:
-      break;
-  }
-  return fmt::format("{}, {} tests", test.words, tester::to_string(test.test));
-}
-
 /// Tests that a person would order together, by the name of their bundle.
 std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations, const TestRules& rules) {
   std::map<std::string, std::vector<PossibleTest>> result;
   for (const PossibleTest& test : possible_tests(observations, rules)) {
-    const bool twin = test.kind == AddedTest::twin;
+    const bool twin = is_twin(test.way.kind);
     if (!twin && test.test == TestKind::toughness) continue;  // a modulus gives the same information for less
-    auto& tests = result[bundle_of(test)];
+    auto& tests = result[bundle_in_words(test)];
     if (!twin || tests.size() < static_cast<std::size_t>(rules.bundle)) tests.push_back(test);
   }
   return result;
@@ -202,7 +187,9 @@ PlannedEffect judged(PlannedEffect planned, const DesignMatrix& matrix, const Pl
              apart = smallest_strength(rules.planned_sizes, distance, names.distinct);
   planned.smallest_seen = value(smallest_strength(rules.planned_sizes, signals, names.visible_signal));
   planned.smallest_told_apart = nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
-  planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
+  planned.status = planned.smallest_told_apart ? PlanStatus::told_apart
+                   : planned.smallest_seen     ? PlanStatus::visible
+                                               : PlanStatus::invisible;
   return planned;
 }
 
@@ -218,7 +205,7 @@ std::vector<Observation> groups_in(const Observations& observations, const std::
 
 /// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
 std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<Eigen::Index>& rows) {
-  const bool enough = !why_too_few(groups_in(matrix.observations, rows), matrix.procedure.noise);
+  const bool enough = !too_few(groups_in(matrix.observations, rows), matrix.procedure.noise);
   const PlannedSignatures signatures = planned_signatures_of(matrix, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
@@ -226,7 +213,6 @@ std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<E
     planned.name = effect.name;
     planned.family = effect.family;
     planned.unit = effect.parameters.front().unit;
-    planned.status = "not_shown";
     const auto found = std::ranges::find(matrix.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - matrix.signatures.begin());
     const bool shown = enough && found != matrix.signatures.end() && signatures.projected[k].norm() >= 1e-6;
@@ -248,10 +234,7 @@ PlannedAddition compare(const std::string& words, const std::vector<PossibleTest
   PlannedAddition addition;
   addition.words = words;
   addition.replicates = rules.replicates;
-  for (const PossibleTest& test : tests)
-    addition.specimens.push_back(
-        fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(),
-                    test.conditions.orientation_deg, test.conditions.strain_rate_per_s, test.conditions.thickness_mm));
+  for (const PossibleTest& test : tests) addition.specimens.push_back(specimen_in_words(test));
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double gained = std::log(strength_told_apart(before[k]) / strength_told_apart(after[k]));
     addition.score += std::max(gained, 0.0);
@@ -263,6 +246,20 @@ PlannedAddition compare(const std::string& words, const std::vector<PossibleTest
 }
 
 }  // namespace
+
+std::string_view to_string(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::told_apart:
+      return "told_apart";
+    case PlanStatus::visible:
+      return "visible";
+    case PlanStatus::invisible:
+      return "invisible";
+    case PlanStatus::not_shown:
+      break;
+  }
+  return "not_shown";
+}
 
 Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter, bool additions) {
@@ -308,7 +305,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   Plan plan;
   plan.specimens = static_cast<int>(specimens.size());
   plan.groups = static_cast<int>(alone.groups.size());
-  plan.too_few = why_too_few(alone.groups, settings.procedure.noise).value_or("");
+  plan.too_few = too_few(alone.groups, settings.procedure.noise);
   plan.effects = judge(matrix, rows_with({}));
   for (const auto& [words, tests] : added) {
     PlannedAddition addition = compare(words, tests, plan.effects, judge(matrix, rows_with(tests)), rules);
@@ -330,43 +327,6 @@ double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<Speci
     throw InputError::format("the changed specimens show {} features, expected {}", other.size(),
                              matrix.observations.size());
   return signature_size(matrix.base, other.values - matrix.observations.values, Whitener(matrix.covariance)).projected;
-}
-
-std::string to_json(const Plan& plan) {
-  using nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
-  };
-  ordered_json effects = ordered_json::array(), additions = ordered_json::array();
-  for (const PlannedEffect& e : plan.effects) {
-    effects.push_back({{"name", e.name},
-                       {"family", e.family},
-                       {"status", e.status},
-                       {"smallest_seen", or_null(e.smallest_seen)},
-                       {"smallest_told_apart", or_null(e.smallest_told_apart)},
-                       {"unit", e.unit},
-                       {"absorption", e.absorption},
-                       {"signal_to_noise", e.signal_to_noise},
-                       {"nearest_rival", e.nearest_rival},
-                       {"rival_cosine", e.rival_cosine}});
-  }
-  for (const PlannedAddition& a : plan.additions) {
-    ordered_json changes = ordered_json::array();
-    for (const auto& c : a.changes)
-      changes.push_back(
-          {{"effect", c.effect}, {"from", c.from}, {"to", c.to}, {"smallest_told_apart", or_null(c.told_apart_from)}});
-    additions.push_back({{"words", a.words},
-                         {"specimens", a.specimens},
-                         {"replicates", a.replicates},
-                         {"score", a.score},
-                         {"changes", changes}});
-  }
-  return ordered_json{{"specimens", plan.specimens},
-                      {"groups", plan.groups},
-                      {"too_few", plan.too_few},
-                      {"effects", effects},
-                      {"additions", additions}}
-      .dump(2);
 }
 
 }  // namespace nacre::diagnosis

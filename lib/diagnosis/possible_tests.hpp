@@ -1,7 +1,7 @@
 #pragma once
 // Tests that a laboratory could add to a measurement set.
 
-#include <string>
+#include <compare>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
@@ -9,16 +9,35 @@
 
 namespace nacre::diagnosis {
 
-/// How a test differs from the measured ones.
-enum class AddedTest { twin, checkerboard, laminate, homogeneous };
+/// How a test differs from the measured ones: twins of measured designs, layouts of simple geometry, homogeneous
+/// coupons.
+enum class AddedTest {
+  turned_twin,
+  faster_twin,
+  twin_between_rates,
+  thinner_twin,
+  checkerboard,
+  laminate_across,  ///< the pull
+  laminate_along,
+  coupon,
+  faster_coupon,
+  coupon_between_rates,
+};
+bool is_twin(AddedTest kind);
 
-/// A specimen that could be made and tested, in words.
+/// Tests of one way share the errors of all models there.
+struct TestWay {
+  AddedTest kind = AddedTest::turned_twin;
+  int period = 0;  ///< of a checkerboard or laminate, pixels
+  auto operator<=>(const TestWay&) const = default;
+};
+
+/// A specimen that could be made and tested.
 struct PossibleTest {
-  AddedTest kind = AddedTest::twin;
+  TestWay way;
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  std::string words;        ///< "a twin printed turned by 90 degrees", ...
   double batch_step = 0.0;  ///< of a batch to come; 0 where there is one batch
 };
 

@@ -10,7 +10,7 @@ namespace nacre::diagnosis {
 namespace {
 
 /// Squared errors already bought for one pair, by way of testing.
-using Bought = std::map<std::string, double>;
+using Bought = std::map<TestWay, double>;
 
 double confusion(const Bought& bought) {
   double squared = 0.0;

@@ -3,10 +3,9 @@
 // different ways.
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
-#include "diagnosis/observations.hpp"
+#include "diagnosis/possible_tests.hpp"
 
 namespace nacre::diagnosis {
 
@@ -18,7 +17,7 @@ struct Separation {
 
 /// Separation of every pair of models by a possible test.
 struct TestValue {
-  std::string way;                ///< "turned twin", ...: tests of one way share the errors of all models there
+  TestWay way;                    ///< tests of one way share the errors of all models there
   std::vector<Separation> pairs;  ///< in the same order in every test
 };
 

@@ -5,11 +5,9 @@
 #include <numeric>
 #include <set>
 
-#include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/name_tests.hpp"
 #include "diagnosis/other_materials.hpp"
-#include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -187,9 +185,9 @@ std::optional<std::vector<FittedModel>> pairs_of_best(Evidence& evidence) {
   return pairs;
 }
 
-Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, std::string reason) {
+Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, Finding finding) {
   decision.verdict = Verdict::unexplained;
-  decision.reason = std::move(reason);
+  decision.finding = std::move(finding);
   if (!tried.empty()) {
     decision.partial = *std::min_element(tried.begin(), tried.end(),
                                          [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
@@ -198,26 +196,22 @@ Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, s
 }
 
 /// Names one, or keeps several (`possible` is not empty); none where an unmodelled cause could look the same.
-Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, std::string reason) {
+Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, Reason reason) {
   const FittedModel& best = possible.front();
   const NameTests tests = tested_for_a_name(evidence, best);
   decision.p_outside = tests.p_outside;
-  if (!tests.objection.empty())
-    return unexplained(std::move(decision), possible,
-                       fmt::format("{} comes nearest, but {}", in_words(best.effects), tests.objection));
+  if (tests.objection) return unexplained(std::move(decision), possible, *tests.objection);
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
-  decision.reason = std::move(reason);
+  decision.finding.reason = reason;
   return decision;
 }
 
 /// Why an effect whose residuals are noise is not named: it is at its bound.
-std::string at_its_bound(const FittedModel& single) {
-  const material::Effect& effect = *material::find_effect(single.effects.front());
-  return fmt::format("{} comes nearest, but its size, {:.3g}{}, is at its bound: one beyond it may be the cause",
-                     material::effect_in_words(effect.name),
-                     single.parameters.extensions.at(single.effects.front()).front(),
-                     material::unit_behind_number(effect.parameters.front().unit));
+Finding at_its_bound(const FittedModel& single) {
+  return {.reason = Reason::at_bound,
+          .nearest = single.effects,
+          .value = single.parameters.extensions.at(single.effects.front()).front()};
 }
 
 std::size_t best_single(const Evidence& evidence) {
@@ -273,10 +267,7 @@ std::optional<Decision> decided_for_its_own_specimens(const Evidence& evidence, 
   for (ModulusAtBound& each : moduli) each.modulus_pa = found[each.material];
   decision.verdict = Verdict::ambiguous;
   decision.partial.reset();
-  decision.reason = fmt::format(
-      "the base model fits with {}, beyond three times the range of these inks: it is another material, which needs "
-      "ranges of its own, or an effect is missing",
-      in_words(moduli));
+  decision.finding = {.reason = Reason::other_material};
   decision.untold = std::move(moduli);
   return decision;
 }
@@ -302,12 +293,10 @@ Decision decide_among_effects(Evidence& evidence) {
                             : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
   if (best_p > evidence.settings.procedure.levels.name) {
     if (decision.p_misfit >= evidence.settings.procedure.levels.unexplained) {
-      decision.reason = "no known effect improves the fit beyond chance, and the residuals are noise";
+      decision.finding.reason = Reason::residuals_are_noise;
       return decision;
     }
-    return unexplained(std::move(decision), evidence.singles,
-                       "the residuals are larger than noise, but no known effect improves the fit beyond chance: an "
-                       "unmodelled cause acts");
+    return unexplained(std::move(decision), evidence.singles, {.reason = Reason::no_effect_helps});
   }
   report(0.8, "testing the residuals of each effect");
   const std::size_t best = best_single(evidence);
@@ -319,8 +308,7 @@ Decision decide_among_effects(Evidence& evidence) {
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.procedure.levels.unexplained)) {
     report(0.85, "comparing rival effects");
     std::vector<FittedModel> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
-    return settled(evidence, std::move(decision), std::move(possible),
-                   "fitted jointly with the base model, it explains the data");
+    return settled(evidence, std::move(decision), std::move(possible), Reason::one_effect);
   }
   report(0.9, "fitting pairs of effects");
   const std::optional<std::vector<FittedModel>> pairs = pairs_of_best(evidence);
@@ -334,12 +322,9 @@ Decision decide_among_effects(Evidence& evidence) {
   if (possible.empty()) {
     std::vector<FittedModel> tried = evidence.singles;
     tried.insert(tried.end(), pairs->begin(), pairs->end());
-    return unexplained(std::move(decision), tried,
-                       "even with the best one or two known effects the residuals stay larger than noise: an "
-                       "unmodelled cause acts");
+    return unexplained(std::move(decision), tried, {.reason = Reason::residuals_stay});
   }
-  return settled(evidence, std::move(decision), std::move(possible),
-                 "no single effect explains the data, these two together do");
+  return settled(evidence, std::move(decision), std::move(possible), Reason::two_effects);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Decision {
   std::size_t loudest_part = 0;        ///< of the rows, where the base is farthest off (Anchor::parts)
   std::vector<ModulusAtBound> untold;  ///< where specimens of these materials would decide between another material
                                        ///< and a missing effect: `ambiguous`, no model possible
-  std::string reason;                  ///< the step that decided, in words
+  Finding finding;
 };
 
 /// Select, keep the set of models that the data cannot distinguish, or say that none fits. A single effect that fits

@@ -7,6 +7,7 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
@@ -94,7 +95,7 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
     : observations_(
           observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, settings.procedure)),
       fidelity_(settings.fidelity) {
-  if (const auto why = why_too_few(observations_.groups, settings.procedure.noise)) throw TooFewSpecimens(*why);
+  if (const auto few = too_few(observations_.groups, settings.procedure.noise)) throw TooFewSpecimens(in_words(*few));
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();
   if (observations_.has(tester::TestKind::toughness)) {

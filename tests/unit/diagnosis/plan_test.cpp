@@ -105,7 +105,7 @@ TEST_F(Plans, ProposalsTakeNothingAwayFromTheSet) {
              with_proposals = plan_diagnosis(specimens, settings_, kScatter, true);
   ASSERT_FALSE(with_proposals.additions.empty());
   for (std::size_t k = 0; k < alone.effects.size(); ++k) {
-    if (alone.effects[k].status == "not_shown") continue;
+    if (alone.effects[k].status == PlanStatus::not_shown) continue;
     EXPECT_NEAR(with_proposals.effects[k].signal_to_noise, alone.effects[k].signal_to_noise,
                 1e-6 * alone.effects[k].signal_to_noise)
         << alone.effects[k].name;
@@ -121,7 +121,7 @@ TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
     return is_identified_by_moduli(*material::find_effect(name));
   };
   for (const PlannedEffect& effect : plan.effects) {
-    EXPECT_TRUE(is_candidate(effect.name) || effect.status == "not_shown") << effect.name;
+    EXPECT_TRUE(is_candidate(effect.name) || effect.status == PlanStatus::not_shown) << effect.name;
     EXPECT_TRUE(effect.nearest_rival.empty() || is_candidate(effect.nearest_rival)) << effect.nearest_rival;
   }
   bool coupons_show_more = false;
@@ -139,8 +139,10 @@ TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
 TEST_F(Plans, TooFewSpecimensShowNothingAndThePlanSaysWhatToAdd) {
   const auto specimens = synthetic_specimens({.patterns = 3, .twins = 0}, settings_.start);
   const Plan plan = plan_diagnosis(specimens, settings_, kScatter);
-  EXPECT_TRUE(plan.too_few.ends_with("there are 3 and 0")) << plan.too_few;
-  for (const PlannedEffect& effect : plan.effects) EXPECT_EQ(effect.status, "not_shown") << effect.name;
+  ASSERT_TRUE(plan.too_few.has_value());
+  EXPECT_EQ(plan.too_few->layouts, 3);
+  EXPECT_EQ(plan.too_few->coupons, 0);
+  for (const PlannedEffect& effect : plan.effects) EXPECT_EQ(effect.status, PlanStatus::not_shown) << effect.name;
   EXPECT_FALSE(plan.additions.empty());
   EXPECT_THROW(plan_diagnosis(specimens, settings_, kScatter, false), TooFewSpecimens);
 }
