@@ -49,8 +49,8 @@ TrueGain true_gain(const BlindTrial& trial, const TrialOptions& options, const f
   settings.floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
   settings.fracture_discretisation =
       read_fracture_discretisation(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
-  Workbench workbench(measurement::read_measurement_set(folder / "set").specimens, settings);
-  const Evidence evidence = gather_evidence(workbench, settings);
+  const Evidence evidence =
+      gather_evidence(data_of(measurement::read_measurement_set(folder / "set").specimens, settings), settings);
   const auto gain_among = [&](const std::vector<FittedModel>& models, double least_drop) {
     return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop,
                          settings.procedure.gain, settings.seed);

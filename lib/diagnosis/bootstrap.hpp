@@ -9,16 +9,9 @@
 
 #include "base/random.hpp"
 #include "diagnosis/contrasts.hpp"
-#include "diagnosis/fit.hpp"
+#include "diagnosis/signatures.hpp"
 
 namespace nacre::diagnosis {
-
-/// Signature of an effect: the change of all predictions by adding it to an anchor model, at several effect sizes.
-struct Signature {
-  std::string effect;
-  Eigen::MatrixXd changes;  ///< rows x sizes
-  bool one_sided = false;   ///< the parameter cannot be negative
-};
 
 /// Statistics of one data set against an anchor model.
 struct DrawStatistics {

@@ -55,7 +55,7 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
   const Whitener whitener(evidence.observations.covariance());
   Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
   for (std::size_t k = 0; k < evidence.effects.size(); ++k)
-    changes.col(static_cast<Eigen::Index>(k)) = change_of(evidence, k, decision.p_family_wise[k] <= rules.levels.name);
+    changes.col(static_cast<Eigen::Index>(k)) = change_of(evidence, k, evidence.p_family_wise[k] <= rules.levels.name);
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
   std::vector<CandidateEffect> candidates;
   for (const material::Effect& effect : material::effect_library()) {
@@ -71,8 +71,8 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     const SignatureSize typical =
         signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(rules.fit.typical), whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;
-    candidate.p_family_wise = decision.p_family_wise[k];
-    candidate.p_fit = decision.p_fit[k];
+    candidate.p_family_wise = evidence.p_family_wise[k];
+    candidate.p_fit = evidence.p_fit[k];
     candidate.absorption = typical.absorption();
     candidate.signal_to_noise = projected.col(static_cast<Eigen::Index>(k)).norm();
     candidate.parameter = single.parameters.extensions.at(candidate.name).front();

@@ -65,14 +65,14 @@ std::vector<ResidualRow> residual_rows(const Observations& observations, const F
 }
 
 /// Curves at both fits: fracture tests from the run nearest to the fit, coupons computed.
-std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations,
-                                   const FittedModel& base, const FittedModel& extended) {
+std::vector<GroupCurves> curves_of(const Data& data, const FittedModel& base, const FittedModel& extended) {
+  const Observations& observations = data.observations;
   std::vector<GroupCurves> curves;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
     if (group.test == tester::TestKind::modulus || group.curve.empty()) continue;
-    curves.push_back({group.design.name(), group.test, group.conditions, group.curve, workbench.curve_at(g, base),
-                      workbench.curve_at(static_cast<int>(g), extended)});
+    curves.push_back({group.design.name(), group.test, group.conditions, group.curve,
+                      curve_at(data, static_cast<int>(g), base), curve_at(data, static_cast<int>(g), extended)});
   }
   return curves;
 }
@@ -125,7 +125,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.verdict = decision.verdict;
   diagnosis.finding = decision.finding;
   diagnosis.untold = decision.untold;
-  diagnosis.p_misfit = decision.p_misfit;
+  diagnosis.p_misfit = evidence.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
   diagnosis.loudest = rows_of(observations, decision.loudest_part);
@@ -170,8 +170,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   const auto report = [&](double share, std::string_view phase) {
     if (settings.progress) settings.progress(share, phase);
   };
-  Workbench workbench(specimens, settings);
-  Evidence evidence = gather_evidence(workbench, settings);
+  const Evidence evidence = gather_evidence(data_of(specimens, settings), settings);
   const Observations& observations = evidence.observations;
   const Decision decision = decide(evidence);
 
@@ -189,7 +188,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   }
   diagnosis.extended_fit = constants_of(evidence, extended);
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
-  diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
+  diagnosis.curves = curves_of(evidence, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
     std::vector<FittedModel> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that was fitted to all the data.
@@ -206,7 +205,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   if (!decision.untold.empty())
     diagnosis.next_experiments =
         specimens_of_materials(observations, decision.untold, settings.procedure.tests.replicates);
-  if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
+  if (evidence.fractures) diagnosis.simulations = evidence.fractures->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "discretisation error of three specimens");
   if (settings.check_discretisation)

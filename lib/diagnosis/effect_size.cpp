@@ -5,6 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "diagnosis/joint_fits.hpp"
+#include "diagnosis/shared_discretisation.hpp"
+
 namespace nacre::diagnosis {
 namespace {
 

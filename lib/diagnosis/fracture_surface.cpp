@@ -33,15 +33,18 @@ double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, con
   return size * shape;
 }
 
-FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs,
-                                 material::ToughnessParameters centre, const EmulatorRules& rules)
-    : observations_(observations), runs_(runs), centre_(to_vector(centre)), rules_(rules) {
+FractureSurface::FractureSurface(const Observations& observations, const std::vector<int>& groups,
+                                 std::vector<FractureRun> runs, const material::ToughnessParameters& centre,
+                                 const EmulatorRules& rules)
+    : reading_(observations.reading), runs_(std::move(runs)), centre_(to_vector(centre)), rules_(rules) {
+  for (const int group : groups) batch_steps_.push_back(observations.groups[group].batch_step);
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];
     if (row.kind != RowKind::mean || row.test != tester::TestKind::toughness) continue;
-    const auto at = std::find(runs.groups().begin(), runs.groups().end(), row.group);
-    rows_.push_back({i, static_cast<int>(at - runs.groups().begin()), row.feature});
+    const auto at = std::ranges::find(groups, row.group);
+    rows_.push_back({i, static_cast<int>(at - groups.begin()), row.feature});
   }
+  learn();
 }
 
 FractureSurface::SurfacePoint FractureSurface::point_of(const material::ParameterSet& set) const {
@@ -186,16 +189,15 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
 }
 
 void FractureSurface::learn() {
-  points_.clear();
-  for (const FractureRun& run : runs_.runs()) points_.push_back(point_of(run.parameters));
+  for (const FractureRun& run : runs_) points_.push_back(point_of(run.parameters));
   const auto count = static_cast<Eigen::Index>(points_.size());
   Eigen::MatrixXd values(count, static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     double sum = 0.0;
     int known = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto& prediction = runs_.runs()[k].predictions[rows_[r].group];
-      const auto value = value_of(shown_features(prediction, {}, observations_.reading), rows_[r].feature);
+      const auto& prediction = runs_[k].predictions[rows_[r].group];
+      const auto value = value_of(shown_features(prediction, {}, reading_), rows_[r].feature);
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
     }
@@ -234,13 +236,11 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   Eigen::VectorXd known = change;
   for (const auto& [distance, k] : order) {
-    const FractureRun& run = runs_.runs()[k];
+    const FractureRun& run = runs_[k];
     std::vector<FeatureValues> plain, shown;
-    for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-      const Observation& group = observations_.groups[runs_.groups()[g]];
-      plain.push_back(shown_features(run.predictions[g], {}, observations_.reading));
-      shown.push_back(
-          shown_features(run.predictions[g], set.extensions, observations_.reading, {.batch_step = group.batch_step}));
+    for (std::size_t g = 0; g < batch_steps_.size(); ++g) {
+      plain.push_back(shown_features(run.predictions[g], {}, reading_));
+      shown.push_back(shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = batch_steps_[g]}));
     }
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto group = static_cast<std::size_t>(rows_[r].group);
@@ -274,12 +274,10 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {
   FeatureValues slopes;
   std::array<int, kFeatureCount> count{};
-  const FractureRun& run = runs_.runs().front();
-  for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-    const FeatureValues before = shown_features(run.predictions[g], set.extensions, observations_.reading,
-                                                {.batch_step = 0.0}),
-                        after = shown_features(run.predictions[g], set.extensions, observations_.reading,
-                                               {.batch_step = 1.0});
+  const FractureRun& run = runs_.front();
+  for (std::size_t g = 0; g < batch_steps_.size(); ++g) {
+    const FeatureValues before = shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = 0.0}),
+                        after = shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = 1.0});
     for (std::size_t f = 0; f < kFeatureCount; ++f)
       if (before[f] && after[f]) slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]), ++count[f];
   }

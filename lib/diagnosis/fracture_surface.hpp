@@ -10,14 +10,14 @@
 #include <map>
 #include <vector>
 
-#include "diagnosis/fracture_runs.hpp"
+#include "diagnosis/fracture_tests.hpp"
 
 namespace nacre::diagnosis {
 
 /// One row of the data that is a feature of a fracture group.
 struct SurfaceRow {
   int row = 0;    ///< index in Observations::rows
-  int group = 0;  ///< index in FractureRuns::groups()
+  int group = 0;  ///< index in FractureTests::groups()
   Feature feature = Feature::log_toughness;
 };
 
@@ -27,11 +27,10 @@ double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, con
 
 class FractureSurface {
  public:
-  /// Rows of the observations that the surface predicts.
-  explicit FractureSurface(const Observations& observations, const FractureRuns& runs,
-                           material::ToughnessParameters centre, const EmulatorRules& rules);
-  /// Learns from all runs there are now. O(runs^3) per feature.
-  void learn();
+  /// Learns the rows of the observations that are features of fracture tests from all runs of their `groups`
+  /// (FractureTests::groups()). O(runs^3) per feature.
+  FractureSurface(const Observations& observations, const std::vector<int>& groups, std::vector<FractureRun> runs,
+                  const material::ToughnessParameters& centre, const EmulatorRules& rules);
   const std::vector<SurfaceRow>& rows() const { return rows_; }
   /// Features at a parameter set, measurement side included, one per row().
   Eigen::VectorXd predict(const material::ParameterSet& set) const;
@@ -65,8 +64,11 @@ class FractureSurface {
   void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
   Eigen::VectorXd machine_change(const material::ParameterSet& set, const SurfacePoint& at) const;
 
-  const Observations& observations_;
-  const FractureRuns& runs_;
+  void learn();
+
+  CurveReading reading_;
+  std::vector<double> batch_steps_;  ///< per group
+  std::vector<FractureRun> runs_;
   material::ToughnessVector centre_;
   EmulatorRules rules_;
   std::vector<SurfaceRow> rows_;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
+#include "diagnosis/shared_discretisation.hpp"
 
 namespace nacre::diagnosis {
 namespace {

@@ -8,9 +8,11 @@
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/data.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
+#include "diagnosis/signatures.hpp"
 #include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
 #include "tester/modulus.hpp"
@@ -92,25 +94,26 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
 /// The design matrix of the linear model: derivatives of all rows by the base constants (base.jacobian) and signatures
 /// of all acting effects, with the covariance of the rows. Every subset of rows is judged by its part of it.
 struct DesignMatrix {
-  const Observations& observations;
-  const Procedure& procedure;
+  Observations observations;
+  Procedure procedure;
   FittedModel base;
   Eigen::MatrixXd covariance;
   std::vector<Signature> signatures = {};
 };
 
 /// Base and covariance at the start parameters, with the scatter that is assumed.
-DesignMatrix design_matrix_of(Workbench& workbench, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
-  Observations& observations = workbench.observations();
+DesignMatrix design_matrix_of(const Data& data, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+  Observations observations = data.observations;
   for (ReplicateScatter& each : observations.scatter)
     each.covariance = covariance_of(scatter, settings.procedure.noise);
-  const CoordinateMap map = workbench.model().base_map();
-  FittedModel base = linearised(workbench.model(), {}, map.coordinates(settings.start));
+  const CoordinateMap map = data.model.base_map();
+  FittedModel base = linearised(data.model, {}, map.coordinates(settings.start));
   if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
-    observations.discretisation_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
+    observations.discretisation_shared = settings.floor.mesh_amplitude * data.model.mesh_change(map, base.u);
     observations.discretisation_sd = settings.floor.mesh_remainder_sd;
   }
-  return {observations, settings.procedure, std::move(base), observations.covariance()};
+  const Eigen::MatrixXd covariance = observations.covariance();
+  return {std::move(observations), settings.procedure, std::move(base), covariance};
 }
 
 /// Without a search for the constants: those that are given are the truth.
@@ -275,10 +278,10 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
       for (int r = 0; r < rules.replicates; ++r) more.push_back(specimen_of(test, r));
   fill_in(more, settings);
   all.insert(all.end(), more.begin(), more.end());
-  Workbench workbench(all, as_given(settings));
-  DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
+  const Data data = data_of(all, as_given(settings));
+  DesignMatrix matrix = design_matrix_of(data, settings, scatter);
   const Observations& observations = matrix.observations;
-  matrix.signatures = signatures_on(workbench.model(), matrix.base, workbench.effects(), rules.planned_sizes);
+  matrix.signatures = signatures_on(data.model, matrix.base, data.effects, rules.planned_sizes);
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
     const auto is_planned = [&](const Observation& group) {
@@ -319,8 +322,8 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
 double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<SpecimenRecord> changed,
                         const DiagnosisSettings& settings, const AssumedScatter& scatter) {
   cut_at_common_strain(specimens, changed, settings.procedure.curves);
-  Workbench workbench(specimens, as_given(settings));
-  const DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
+  const Data data = data_of(specimens, as_given(settings));
+  const DesignMatrix matrix = design_matrix_of(data, settings, scatter);
   const Observations other =
       observe(changed, settings.floor.log_modulus_sd, settings.fracture_discretisation, settings.procedure);
   if (other.size() != matrix.observations.size())

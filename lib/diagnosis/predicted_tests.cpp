@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "diagnosis/shared_discretisation.hpp"
 #include "measurement/reduction.hpp"
 #include "tester/modulus.hpp"
 #include "tester/toughness.hpp"

@@ -15,10 +15,6 @@ struct Decision {
   Verdict verdict = Verdict::base_sufficient;
   std::vector<FittedModel> possible;
   std::optional<FittedModel> partial;  ///< best model of an unexplained misfit
-  std::vector<double> p_fit;  ///< per effect: chance of a misfit as large when base + effect is true; 1 where no name
-                              ///< was in question, 0 too far behind the best to be tested
-  std::vector<double> p_family_wise;  ///< per effect
-  double p_misfit = 1.0;
   double p_outside = 1.0;  ///< chance that an unmodelled cause would give a name as surely (discrepancy_model.hpp); 1
                            ///< when not tested
   std::vector<Contrast> contrasts;     ///< of the base model's residuals, strongest first
@@ -28,8 +24,7 @@ struct Decision {
   Finding finding;
 };
 
-/// Select, keep the set of models that the data cannot distinguish, or say that none fits. A single effect that fits
-/// better from where a pair ended is replaced in the evidence.
-Decision decide(Evidence& evidence);
+/// Select, keep the set of models that the data cannot distinguish, or say that none fits.
+Decision decide(const Evidence& evidence);
 
 }  // namespace nacre::diagnosis

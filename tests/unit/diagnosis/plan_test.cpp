@@ -6,7 +6,6 @@
 
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/workbench.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 

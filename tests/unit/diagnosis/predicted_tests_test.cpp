@@ -10,8 +10,8 @@
 #include <map>
 #include <memory>
 
+#include "diagnosis/shared_discretisation.hpp"
 #include "diagnosis/words.hpp"
-#include "diagnosis/workbench.hpp"
 #include "synthetic_set.hpp"
 
 namespace nacre::diagnosis {
@@ -84,8 +84,7 @@ class MixedDroplets : public testing::Test {
  protected:
   struct Gathered {
     DiagnosisSettings settings = tiny_settings();
-    Workbench workbench{mixed_specimens(), settings};
-    Evidence evidence = gather_evidence(workbench, settings);
+    Evidence evidence = gather_evidence(data_of(mixed_specimens(), settings), settings);
   };
   static void SetUpTestSuite() { gathered_ = std::make_unique<Gathered>(); }
   static void TearDownTestSuite() { gathered_.reset(); }
