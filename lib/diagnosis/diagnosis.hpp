@@ -31,7 +31,7 @@ enum class Reason {
   residuals_are_noise,  ///< base_sufficient
   no_effect_helps,      ///< unexplained: a misfit, and no effect improves the fit beyond chance
   residuals_stay,       ///< unexplained: larger than noise with one and two effects
-  at_bound,             ///< unexplained: the nearest effect, whose residuals are noise, is at the end of its range
+  at_bound,             ///< unexplained: the nearest effect, whose residuals are noise, is at its bound
   weak_signal,          ///< unexplained: too little of the nearest effect's signature is its own
   contrast,             ///< unexplained: a contrast explains more than the nearest effect
   condition,            ///< unexplained: one factor on all specimens of a condition does as well

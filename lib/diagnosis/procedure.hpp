@@ -132,7 +132,7 @@ struct NameRules {
 
 /// Effect sizes by profile likelihood.
 struct SizeRules {
-  std::array<double, 4> shares{1.2, 1.45, 0.83, 0.67};  ///< of the named size, tried first
+  std::array<double, 4> shares{1.2, 1.45, 0.83, 0.67};  ///< of the fitted size, tried first
   double of_interest = 8.0;  ///< in deviance behind the best: sizes farther off do not matter
   double step = 2.5;         ///< in deviance: between sizes that differ by more one is tried
   double caught = 30.0;      ///< in deviance behind the best: caught in a local minimum
@@ -193,7 +193,7 @@ struct Procedure {
 };
 
 /// Content hash of how a verdict is reached, 16 hex digits: the procedure whole, known effects with their ranges,
-/// features, descriptors, numerics floor, fidelity, number of bootstraps. Not in it: the data, the initial guess of the
+/// features, descriptors, discretisation floor, fidelity, number of bootstraps. Not in it: the data, the initial guess of the
 /// fit, the seed, and the budget of the search.
 std::string procedure_hash(const DiagnosisSettings& settings);
 

@@ -170,7 +170,7 @@ std::string disagreement_in_words(const std::vector<std::string>& out_of_line, V
 }
 
 /// The element size is in the noise already, as the discretisation floor; the other choices ought not to matter at all.
-std::string numerics_in_words(const std::vector<SanityCheck>& checks) {
+std::string discretisation_in_words(const std::vector<SanityCheck>& checks) {
   std::string text;
   for (const SanityCheck& check : checks) {
     if (!check.numerical || check.changed == DiscretisationChange::half_element) continue;
@@ -402,7 +402,7 @@ std::string choice_in_words(const Gain& gain) {
 
 std::string summary_of(const Diagnosis& d) {
   std::string text = verdict_in_words(d) + other_materials_in_words(d.cautions.other_materials) +
-                     disagreement_in_words(d.cautions.out_of_line, d.verdict) + numerics_in_words(d.sanity) +
+                     disagreement_in_words(d.cautions.out_of_line, d.verdict) + discretisation_in_words(d.sanity) +
                      batches_in_words(d);
   if (d.cautions.replicates_are_equal)
     text +=
