@@ -33,7 +33,7 @@ struct Evidence : Data {
   std::vector<double> p_pair_fit = {};  ///< per pair
 };
 
-/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common
+/// Fits base and single effects and bootstraps the base. With a floor that has a common
 /// direction the fits are done first with independent layouts and again with the directions along which a refined mesh
 /// moves these models. Where an effect improves the fit beyond chance, the misfit of each is tested; where none fits,
 /// pairs are built on the best.

@@ -1,5 +1,5 @@
 #pragma once
-// What an effect must pass before it is named (docs/METHODS.md, "Diagnosis", step 8): each effect of a model by itself,
+// What an effect must pass before it is named (docs/METHODS.md, "Diagnosis", step 7): each effect of a model by itself,
 // given the other one.
 
 #include <optional>

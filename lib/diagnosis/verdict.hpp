@@ -1,5 +1,5 @@
 #pragma once
-// From evidence to verdict (docs/METHODS.md, "Diagnosis", steps 7 and 8).
+// From evidence to verdict (docs/METHODS.md, "Diagnosis", step 7).
 
 #include <optional>
 #include <string>
