@@ -73,7 +73,7 @@ SizeProfile profile_of(const Evidence& evidence, const FittedModel& named, int i
   // Restarted far from the fitted size too, from the initial guess of the base: other constants may hide another
   // optimum.
   for (const double size : rules.fit.sizes)
-    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), at_first_constants(evidence, named.u));
+    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), with_constants_at_centre(evidence.model, named.u));
   for (const double share : rules.sizes.shares) try_size(evidence, profile, i, share * named.u[i]);
   for (int round = 0; round < rules.sizes.rounds; ++round)
     for (const double size : missing_sizes(profile, rules.sizes)) try_size(evidence, profile, i, size);

@@ -51,8 +51,7 @@ Evidence with_refined_fractures(Evidence evidence) {
     LearntData learnt = learnt_at(evidence, sets, rules);
     static_cast<Data&>(evidence) = std::move(learnt.data);
     const double begin = 0.6 + 0.03 * pass;
-    const Eigen::VectorXd start = evidence.base.fit.u;
-    evidence = with_fits(std::move(evidence), start, {begin, begin + 0.03});
+    evidence = with_fits(std::move(evidence), {begin, begin + 0.03});
     if (learnt.largest_error < rules.well_known) break;
   }
   return evidence;
@@ -67,9 +66,7 @@ Evidence fitted(const Data& data, const DiagnosisSettings& settings) {
   for (int pass = 0; pass < passes; ++pass) {
     if (pass > 0) evidence = with_shared_discretisation(std::move(evidence));
     const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
-    const Eigen::VectorXd start =
-        pass == 0 ? evidence.model.base_map().coordinates(evidence.model.basis().centre) : evidence.base.fit.u;
-    evidence = with_fits(std::move(evidence), start, {begin, end});
+    evidence = with_fits(std::move(evidence), {begin, end});
     if (pass == 0) evidence = with_refined_fractures(std::move(evidence));
   }
   return evidence;

@@ -4,126 +4,79 @@
 #include <cmath>
 
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/global_fit.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
 const FitRules& rules_of(const Evidence& evidence) { return evidence.settings.procedure.fit; }
 
+FittedModel base_from(const Evidence& evidence, const std::vector<Start>& starts,
+                      std::optional<FittedModel> known = std::nullopt) {
+  return global_fit(evidence.model, evidence.observations, rules_of(evidence), {}, starts, std::move(known));
+}
+
 /// The base model with signatures and contrasts on top of it.
-void put_base(Evidence& evidence, FittedModel base) {
-  evidence.base.fit = std::move(base);
-  evidence.base.signatures =
-      signatures_on(evidence.model, evidence.base.fit, evidence.effects, rules_of(evidence).sizes);
-  evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
+Anchor anchor_at(const Evidence& evidence, FittedModel base) {
+  Anchor anchor{std::move(base), {}, {}, {}};
+  anchor.signatures = signatures_on(evidence.model, anchor.fit, evidence.effects, rules_of(evidence).sizes);
+  anchor.directions = contrast_directions(evidence.observations, anchor.fit.predicted);
+  return anchor;
 }
 
-/// Base and one effect, from the best initial guess.
-FittedModel fit_single(const Evidence& evidence, std::size_t effect) {
-  return fit_model(evidence.model, evidence.observations, rules_of(evidence), {evidence.effects[effect]},
-                   best_initial_guess(evidence.model, evidence.observations, evidence.base.fit,
-                                      evidence.base.signatures[effect], rules_of(evidence)));
-}
-
-/// First constants, with the effect size of the smallest chi squared there.
-Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedModel& fit) {
-  const Eigen::VectorXd first = at_first_constants(evidence, fit.u);
-  const Eigen::Index own = evidence.base.fit.u.size();
-  const CoordinateMap map = evidence.model.map(fit.effects);
-  const Whitener whitener(evidence.observations.covariance());
-  std::vector<Eigen::VectorXd> starts;
-  for (const double size : rules_of(evidence).restart_sizes) {
-    starts.push_back(first);
-    starts.back()[own] = size;
+/// Base and one effect; from an earlier fit of some size where there is one.
+FittedModel single_of(const Evidence& evidence, std::size_t effect) {
+  const FitRules& rules = rules_of(evidence);
+  std::vector<Start> starts =
+      starts_on(evidence.model, evidence.observations, rules, evidence.base.fit, evidence.base.signatures[effect]);
+  if (effect < evidence.singles.size()) {
+    const FittedModel& earlier = evidence.singles[effect];
+    if (std::abs(earlier.u[earlier.base_count]) > rules.nothing) starts = {at_earlier(earlier), starts.back()};
   }
-  const Eigen::MatrixXd predicted = evidence.model.predict(map, starts);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const double chi2 = whitener.chi2(evidence.observations.values - predicted.col(static_cast<Eigen::Index>(i)));
-    if (chi2 < least) least = chi2, best = i;
-  }
-  return starts[best];
-}
-
-/// The base is restarted from where the best extended fit ended: a gain must not be better optimisation. Where that
-/// helps it, every effect is restarted from there.
-void restart_base(Evidence& evidence) {
-  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                     [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
-  if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - rules_of(evidence).base_behind) return;
-  FittedModel again =
-      fit_model(evidence.model, evidence.observations, rules_of(evidence), {}, best->u.head(best->base_count));
-  if (again.chi2 >= evidence.base.fit.chi2 - rules_of(evidence).better) return;
-  put_base(evidence, std::move(again));
-  for (std::size_t k = 0; k < evidence.singles.size(); ++k)
-    evidence.singles[k] = better_of(std::move(evidence.singles[k]), fit_single(evidence, k));
-}
-
-/// An effect of larger chi squared than the base is caught in a local minimum, since at size 0 it is the base:
-/// restarted there.
-void restart_at_the_base(Evidence& evidence) {
-  for (FittedModel& single : evidence.singles) {
-    if (single.chi2 <= evidence.base.fit.chi2 + rules_of(evidence).converged) continue;
-    const CoordinateMap map = evidence.model.map(single.effects);
-    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, rules_of(evidence),
-                                                    single.effects, widened_start(evidence.base.fit, map)));
-  }
+  return global_fit(evidence.model, evidence.observations, rules, {evidence.effects[effect]}, starts);
 }
 
 }  // namespace
 
-FittedModel better_of(FittedModel a, FittedModel b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
-
-Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) {
-  const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.model.basis().centre);
-  u.head(first.size()) = first;
-  return u;
-}
-
-FittedModel restarted(const Evidence& evidence, FittedModel fit) {
-  const FitRules& rules = rules_of(evidence);
-  const double found = evidence.base.fit.chi2 - fit.chi2;
-  const auto again_from = [&](const Eigen::VectorXd& u) {
-    FittedModel again = fit_model(evidence.model, evidence.observations, rules_of(evidence), fit.effects, u);
-    return better_of(std::move(fit), std::move(again));
-  };
-  if (found >= rules.far_behind) fit = again_from(at_first_constants(evidence, fit.u));
-  // A further fit of every effect to moduli of layouts would double the work; effects of a machine on curves need it.
-  const bool is_far_off = fit.chi2 > evidence.observations.size() + rules.far_behind;
-  const bool is_of_curves =
-      material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
-  if (fit.effects.size() > 1 || !is_far_off || !is_of_curves) return fit;
-  const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < rules.nothing;
-  if (found >= rules.far_behind || found_nothing) fit = again_from(promising_initial_guess(evidence, fit));
-  return fit;
-}
-
-Evidence with_fits(Evidence evidence, const Eigen::VectorXd& start, Stretch stretch) {
+Evidence with_fits(Evidence evidence, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
     if (evidence.settings.progress)
       evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
   };
   report(0.0, "fitting the base model");
-  FittedModel base = fit_model(evidence.model, evidence.observations, rules_of(evidence), {}, start);
+  const bool is_first = evidence.base.fit.u.size() == 0;
+  FittedModel base =
+      base_from(evidence, {is_first ? at_centre(evidence.model, evidence.observations, rules_of(evidence), {})
+                                    : at_earlier(evidence.base.fit)});
   report(0.3, "signatures of the effects");
-  put_base(evidence, std::move(base));
+  evidence.base = anchor_at(evidence, std::move(base));
   std::vector<FittedModel> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
            "fitting base and " + evidence.effects[k]);
-    // An earlier fit of some size is the initial guess under another covariance or emulator.
-    const bool found = k < evidence.singles.size() &&
-                       std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > rules_of(evidence).nothing;
-    singles.push_back(found ? fit_model(evidence.model, evidence.observations, rules_of(evidence),
-                                        {evidence.effects[k]}, evidence.singles[k].u)
-                            : fit_single(evidence, k));
+    singles.push_back(single_of(evidence, k));
   }
   evidence.singles = std::move(singles);
-  for (FittedModel& single : evidence.singles) single = restarted(evidence, std::move(single));
-  restart_base(evidence);
-  restart_at_the_base(evidence);
+  if (evidence.singles.empty()) return evidence;
+  // A gain must not be better optimisation: the base begins once more where the best effect ended.
+  const FittedModel& best = evidence.singles[best_single(evidence)];
+  const double before = evidence.base.fit.chi2;
+  FittedModel again = base_from(evidence, {at_relative(best, best.base_count)}, evidence.base.fit);
+  if (again.chi2 >= before - rules_of(evidence).better) return evidence;
+  evidence.base = anchor_at(evidence, std::move(again));
+  for (std::size_t k = 0; k < evidence.singles.size(); ++k) {
+    const std::vector<Start> starts = starts_on(evidence.model, evidence.observations, rules_of(evidence),
+                                                evidence.base.fit, evidence.base.signatures[k]);
+    evidence.singles[k] = global_fit(evidence.model, evidence.observations, rules_of(evidence), {evidence.effects[k]},
+                                     starts, evidence.singles[k]);
+  }
   return evidence;
+}
+
+Eigen::VectorXd with_constants_at_centre(const FeatureModel& model, Eigen::VectorXd u) {
+  const Eigen::VectorXd constants = model.base_map().coordinates(model.basis().centre);
+  u.head(constants.size()) = constants;
+  return u;
 }
 
 }  // namespace nacre::diagnosis

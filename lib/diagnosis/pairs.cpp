@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "diagnosis/joint_fits.hpp"
+#include "diagnosis/global_fit.hpp"
 #include "diagnosis/misfit.hpp"
 
 namespace nacre::diagnosis {
@@ -36,13 +36,13 @@ std::vector<FittedModel> significant_pairs(const Evidence& evidence, const Fitte
       over_draws(bootstrap_anchor(anchor, evidence.observations, evidence.settings.procedure.names.imitated,
                                   evidence.settings.bootstraps, evidence.settings.seed + 3),
                  &DrawStatistics::largest_drop);
+  const FitRules& rules = evidence.settings.procedure.fit;
   std::vector<FittedModel> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
+    const std::vector<Start> starts =
+        starts_on(evidence.model, evidence.observations, rules, single, anchor.signatures[k]);
     FittedModel pair =
-        restarted(evidence, fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit,
-                                      {single.effects.front(), others[k]},
-                                      best_initial_guess(evidence.model, evidence.observations, single,
-                                                         anchor.signatures[k], evidence.settings.procedure.fit)));
+        global_fit(evidence.model, evidence.observations, rules, {single.effects.front(), others[k]}, starts);
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.procedure.levels.name)
       pairs.push_back(std::move(pair));
   }
@@ -51,12 +51,11 @@ std::vector<FittedModel> significant_pairs(const Evidence& evidence, const Fitte
 
 /// An effect refitted by itself from where each of these pairs with it ended: a pair may have found an optimum that its
 /// first effect missed alone, and its gain must not be better optimisation.
-FittedModel refitted_alone(const Evidence& evidence, FittedModel single, const std::vector<FittedModel>& pairs) {
-  for (const FittedModel& pair : pairs)
-    single =
-        better_of(std::move(single), fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit,
-                                               single.effects, pair.u.head(single.u.size())));
-  return single;
+FittedModel refitted_alone(const Evidence& evidence, const FittedModel& single, const std::vector<FittedModel>& pairs) {
+  std::vector<Start> starts;
+  for (const FittedModel& pair : pairs) starts.push_back(at_relative(pair, single.u.size()));
+  return global_fit(evidence.model, evidence.observations, evidence.settings.procedure.fit, single.effects, starts,
+                    single);
 }
 
 }  // namespace
@@ -68,8 +67,8 @@ Pairs pairs_on_best(const Evidence& evidence) {
     FittedModel& single = found.singles[anchor];
     const double before = single.chi2;
     std::vector<FittedModel> built = significant_pairs(evidence, single);
-    single = refitted_alone(evidence, std::move(single), built);
-    found.improved = single.chi2 < before - evidence.settings.procedure.fit.better_alone;
+    single = refitted_alone(evidence, single, built);
+    found.improved = single.chi2 < before - evidence.settings.procedure.fit.better;
     if (found.improved) return found;
     for (FittedModel& pair : built)
       if (known.insert({pair.effects.begin(), pair.effects.end()}).second) found.pairs.push_back(std::move(pair));

@@ -68,8 +68,8 @@ std::string definitions() {
 std::string procedure_hash(const DiagnosisSettings& settings) {
   std::string text = fmt::format("kernel {} fidelity {} bootstraps {}\n", tester::kKernelVersion,
                                  tester::to_string(settings.fidelity), settings.bootstraps);
-  text += numbers_of(settings.procedure) + floors_of(settings.floor, settings.fracture_discretisation) + definitions();
-  if (settings.ranges != material::thesis_ranges()) text += material::to_csv(settings.ranges);
+  text += numbers_of(settings.procedure) + floors_of(settings.floor, settings.fracture_discretisation) + definitions() +
+          material::to_csv(settings.ranges);
   return content_hash(text).substr(0, 16);
 }
 

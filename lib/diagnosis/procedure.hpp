@@ -89,12 +89,11 @@ struct FitRules {
   int typical = 2;                                     ///< index of the size at which visibility is judged
   std::array<double, 2> probes{0.1, 0.6};              ///< sizes at which an effect acts on some row, or never
   double far_behind = 60.0;                            ///< in chi squared: no draw lets a rival catch up
-  std::array<double, 3> restart_sizes{0.3, 0.6, 0.9};  ///< of an effect on curves whose fit stays far off
+  std::array<double, 3> restart_sizes{0.3, 0.6, 0.9};  ///< of an effect of the machine, tried at the centre
   double nothing = 0.01;                               ///< size that is none, as a share of the range
-  double base_behind = 1.0;                            ///< of an effect: then the base restarts from its constants
-  double better = 0.1;                                 ///< drop of chi squared for which effects are refitted
-  double better_alone = 1.0;                           ///< the same of an effect within a pair
-  int mesh_passes = 2;                                 ///< fits with shared directions of the discretisation error
+  double better = 1.0;    ///< drop of chi squared that is worth a further descent, or judging anew
+  double noise_sd = 1.0;  ///< of chi squared above the rows: noise explains a fit below it, no further descent
+  int mesh_passes = 2;    ///< fits with shared directions of the discretisation error
   static constexpr void fields(auto& field, auto& m);
 };
 
@@ -193,8 +192,8 @@ struct Procedure {
 };
 
 /// Content hash of how a verdict is reached, 16 hex digits: the procedure whole, known effects with their ranges,
-/// features, descriptors, discretisation floor, fidelity, number of bootstraps. Not in it: the data, the initial guess of the
-/// fit, the seed, and the budget of the search.
+/// features, descriptors, discretisation floor, fidelity, number of bootstraps. Not in it: the data, the initial guess
+/// of the fit, the seed, and the budget of the search.
 std::string procedure_hash(const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

@@ -75,9 +75,8 @@ constexpr void FitRules::fields(auto& field, auto& m) {
   field("far_behind", m.far_behind);
   field("restart_sizes", m.restart_sizes);
   field("nothing", m.nothing);
-  field("base_behind", m.base_behind);
   field("better", m.better);
-  field("better_alone", m.better_alone);
+  field("noise_sd", m.noise_sd);
   field("mesh_passes", m.mesh_passes);
 }
 

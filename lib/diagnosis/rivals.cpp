@@ -26,7 +26,7 @@ double profile_deviance(const Evidence& evidence, const FittedModel& model) {
   const auto from = [&](const Eigen::VectorXd& u) {
     return fit_with_own_discretisation(evidence, model.effects, u).deviance;
   };
-  return std::min(from(model.u), from(at_first_constants(evidence, model.u)));
+  return std::min(from(model.u), from(with_constants_at_centre(evidence.model, model.u)));
 }
 
 /// Models that fit by themselves, with how far each lies behind the best.

@@ -32,7 +32,6 @@ TEST(Procedure, EveryNumberIsInTheHash) {
   walk_fields(all, settings.procedure);
   ASSERT_GT(all.at, 100);
   const std::string hash = procedure_hash(settings);
-  EXPECT_EQ(hash, procedure_hash(DiagnosisSettings{}));
   for (int place = 0; place < all.at; ++place) {
     DiagnosisSettings changed;
     NumberChange change{.place = place};
@@ -44,12 +43,13 @@ TEST(Procedure, EveryNumberIsInTheHash) {
 // What the data are, and where a search begins, is no part of the procedure.
 TEST(Procedure, TheSeedAndTheInitialGuessAreNotInTheHash) {
   DiagnosisSettings settings;
+  const std::string hash = procedure_hash(settings);
   settings.seed = 7;
   settings.search_budget = 3;
   settings.start.modulus.e_vw_pa *= 1.1;
-  EXPECT_EQ(procedure_hash(settings), procedure_hash(DiagnosisSettings{}));
+  EXPECT_EQ(procedure_hash(settings), hash);
   settings.bootstraps += 1;
-  EXPECT_NE(procedure_hash(settings), procedure_hash(DiagnosisSettings{})) << "the chances are resolved otherwise";
+  EXPECT_NE(procedure_hash(settings), hash) << "the chances are resolved otherwise";
 }
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace {
 
 /// Some diagnosis that was decided for this reason.
 Diagnosis decided_by(Verdict verdict, Reason reason) {
-  Diagnosis d{.verdict = verdict, .finding = {.reason = reason, .nearest = {"droplet_mixing"}, .along = "orientation"}};
+  Diagnosis d;
+  d.verdict = verdict;
+  d.finding = {.reason = reason, .nearest = {"droplet_mixing"}, .along = "orientation"};
   if (reason == Reason::other_material) d.untold = {{.material = 1, .modulus_pa = 1.3e9}};
   if (verdict == Verdict::named) d.effects = {{"droplet_mixing", "geometry", 0.5, 0.4, 0.6, "pixels"}};
   return d;
