@@ -34,24 +34,27 @@ std::vector<Feature> compared() {
 /// Stands for the value of a test that failed or has not this feature: the table keeps numbers only.
 constexpr double kMissing = 1e9;
 
+std::vector<double> features_of(const tester::Simulation& simulation, int refinement) {
+  const auto result = tester::test_toughness(simulation, {.refinement = refinement});
+  const diagnosis::FeatureValues features =
+      result ? diagnosis::fracture_features(result->curve, {}) : diagnosis::FeatureValues{};
+  std::vector<double> values;
+  for (const Feature feature : compared()) values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
+  return values;
+}
+
 std::vector<study::Wanted> wanted_curves(const FloorPlan& plan) {
   std::vector<study::Wanted> wanted;
-  for (std::size_t pass = 0; pass < plan.sets.size(); ++pass)
-    for (std::size_t i = 0; i < plan.layouts.size(); ++i)
-      for (const int refinement : {1, 2}) {
-        const std::size_t set = (i + pass) % plan.sets.size();
-        const tester::Simulation simulation{
-            plan.layouts[i], tester::refined(plan.sets[set], refinement), {}, plan.fidelity};
-        wanted.push_back({toughness_key(plan, i, set, refinement), [=]() -> std::vector<double> {
-                            const auto result = tester::test_toughness(simulation, {.refinement = refinement});
-                            const diagnosis::FeatureValues features =
-                                result ? diagnosis::fracture_features(result->curve, {}) : diagnosis::FeatureValues{};
-                            std::vector<double> values;
-                            for (const Feature feature : compared())
-                              values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
-                            return values;
-                          }});
-      }
+  for (int specimen = 0; specimen < plan.specimens; ++specimen)
+    for (std::size_t pass = 0; pass < plan.sets.size(); ++pass)
+      for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+        for (const int refinement : {1, 2}) {
+          const std::size_t set = (i + pass) % plan.sets.size();
+          const tester::Simulation simulation{
+              plan.layouts[i], tester::refined(plan.sets[set], refinement), {}, plan.fidelity, specimen};
+          wanted.push_back(
+              {toughness_key(plan, i, set, refinement, specimen), [=] { return features_of(simulation, refinement); }});
+        }
   return wanted;
 }
 
@@ -60,6 +63,26 @@ struct MeshPair {
   double z = 0.0;
   Eigen::VectorXd change;  ///< feature(h/2) - feature(h)
 };
+
+/// The mean of their specimens that have every feature on both meshes; nothing where none has.
+std::optional<MeshPair> finished_pair(const FloorPlan& plan, const study::StudyTable& table, std::size_t layout,
+                                      std::size_t set) {
+  const auto count = static_cast<Eigen::Index>(compared().size());
+  MeshPair pair{(plan.layouts[layout].rigid_fraction() - kMiddleFraction) / kFractionUnit,
+                Eigen::VectorXd::Zero(count)};
+  int specimens = 0;
+  for (int specimen = 0; specimen < plan.specimens; ++specimen) {
+    const auto coarse = table.find(toughness_key(plan, layout, set, 1, specimen)),
+               fine = table.find(toughness_key(plan, layout, set, 2, specimen));
+    if (!coarse || !fine || std::ranges::max(*coarse) == kMissing || std::ranges::max(*fine) == kMissing) continue;
+    ++specimens;
+    pair.change += Eigen::Map<const Eigen::VectorXd>(fine->data(), count) -
+                   Eigen::Map<const Eigen::VectorXd>(coarse->data(), count);
+  }
+  if (specimens == 0) return std::nullopt;
+  pair.change /= specimens;
+  return pair;
+}
 
 /// Covariance of changes: the part that all layouts share and the part linear in rigid fraction (means over parameter
 /// sets), and the residual of a layout.
@@ -75,13 +98,8 @@ CurveFloor curve_floor(const FloorPlan& plan, const study::StudyTable& table) {
   double freedom = 0.0;
   for (std::size_t s = 0; s < plan.sets.size(); ++s) {
     std::vector<MeshPair> pairs;
-    for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
-      const auto coarse = table.find(toughness_key(plan, i, s, 1)), fine = table.find(toughness_key(plan, i, s, 2));
-      if (!coarse || !fine) continue;
-      MeshPair pair{(plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit, Eigen::VectorXd(count)};
-      for (Eigen::Index f = 0; f < count; ++f) pair.change[f] = (*fine)[f] - (*coarse)[f];
-      if (pair.change.cwiseAbs().maxCoeff() < 0.5 * kMissing && (*fine)[0] < kMissing) pairs.push_back(pair);
-    }
+    for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+      if (const auto pair = finished_pair(plan, table, i, s)) pairs.push_back(*pair);
     if (pairs.size() < kLeastPairs) continue;
     double n = 0.0, z1 = 0.0, z2 = 0.0;
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count), sum_z = sum;

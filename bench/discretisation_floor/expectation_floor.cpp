@@ -16,46 +16,16 @@ namespace {
 constexpr int kBootstraps = 2000;
 constexpr std::size_t kLeastDesigns = 3;  // of a parameter set in a bootstrap
 
-/// Empty for the thesis' criterion and its W.
-std::string criterion_text(const SpecimenPlan& specimens) {
-  const material::FailureCriterion& criterion = specimens.criterion;
-  const bool is_band = criterion.kind == material::CriterionKind::crack_band;
-  std::string text = specimens.strength_factor == 1.0 ? "" : fmt::format(" W x {}", specimens.strength_factor);
-  if (criterion.kind != material::CriterionKind::element)
-    text +=
-        fmt::format(" {} {}", material::to_string(criterion.kind), is_band ? criterion.softening : criterion.radius_m);
-  if (specimens.tail > 0.0) text += fmt::format(" tail {}", specimens.tail);
-  return text;
-}
-
-/// The plan's parameter sets with the criterion and strengths of the specimens.
-FloorPlan with_strengths(FloorPlan plan, const SpecimenPlan& specimens) {
-  for (material::ParameterSet& set : plan.sets) {
-    set.criterion = specimens.criterion;
-    set.strength_cv = specimens.strength_cv;
-    if (specimens.tail > 0.0) set.extensions["progressive_damage"] = {specimens.tail};
-    for (double* threshold : {&set.toughness.w_tb_j_per_m3, &set.toughness.w_vw_j_per_m3, &set.toughness.w_if_j_per_m3})
-      *threshold *= specimens.strength_factor;
-  }
-  return plan;
-}
-
-std::string specimen_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
-                         const SpecimenPlan& specimens, int specimen) {
-  return fmt::format("{} cv {}{} specimen {}", toughness_key(plan, layout, set, refinement), specimens.strength_cv,
-                     criterion_text(specimens), specimen);
-}
-
 /// T and peak stress of finished specimens, Pa.
 struct Finished {
   std::vector<double> toughness_pa, peak_pa;
 };
 
-Finished finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
-                  const SpecimenPlan& specimens, int count, const study::StudyTable& table) {
+Finished finished(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, int count,
+                  const study::StudyTable& table) {
   Finished result;
   for (int specimen = 0; specimen < count; ++specimen) {
-    const auto row = table.find(specimen_key(plan, layout, set, refinement, specimens, specimen));
+    const auto row = table.find(toughness_key(plan, layout, set, refinement, specimen));
     if (!row || (*row)[0] <= 0.0) break;
     result.toughness_pa.push_back((*row)[0]);
     result.peak_pa.push_back((*row)[1]);
@@ -187,7 +157,6 @@ std::map<std::size_t, std::vector<const DesignPair*>> grouped_by_set(const std::
 }  // namespace
 
 std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const SpecimenPlan& specimens) {
-  const FloorPlan scaled = with_strengths(plan, specimens);
   std::vector<study::Wanted> wanted;
   for (int specimen = 0; specimen < std::max(specimens.coarse, specimens.fine); ++specimen)
     for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
@@ -196,8 +165,7 @@ std::vector<study::Wanted> wanted_specimens(const FloorPlan& plan, const Specime
           if (specimen >= (fine ? specimens.fine : specimens.coarse)) continue;
           const int refinement = specimens.refinement * (fine ? 2 : 1);
           const std::size_t set = (i + pass) % plan.sets.size();
-          const std::string key = specimen_key(plan, i, set, refinement, specimens, specimen);
-          wanted.push_back(wanted_fracture_test(key, scaled, i, set, {.refinement = refinement}, specimen));
+          wanted.push_back(wanted_fracture_test(plan, i, set, refinement, specimen));
         }
   return wanted;
 }
@@ -206,8 +174,8 @@ std::vector<DesignPair> finished_designs(const FloorPlan& plan, const SpecimenPl
                                          const study::StudyTable& table) {
   std::vector<DesignPair> designs;
   const auto values = [&](std::size_t layout, std::size_t set, bool fine) {
-    return finished(plan, layout, set, specimens.refinement * (fine ? 2 : 1), specimens,
-                    fine ? specimens.fine : specimens.coarse, table);
+    return finished(plan, layout, set, specimens.refinement * (fine ? 2 : 1), fine ? specimens.fine : specimens.coarse,
+                    table);
   };
   for (std::size_t i = 0; i < plan.layouts.size(); ++i)
     for (std::size_t set = 0; set < plan.sets.size(); ++set) {

@@ -12,12 +12,8 @@ namespace nacre::discretisation_floor {
 
 /// Which specimens are broken. The fine mesh costs some ten times as much, so it may have fewer.
 struct SpecimenPlan {
-  double strength_cv = 0.1;
   int coarse = 0, fine = 0;  ///< specimens 0 .. n - 1 on elements of h / refinement and of h / (2 refinement)
   int refinement = 1;        ///< of the coarse mesh
-  material::FailureCriterion criterion = {};
-  double tail = 0.0;             ///< `progressive_damage` beside the criterion
-  double strength_factor = 1.0;  ///< on every W, which differs between criteria of the same fracture energy
 };
 
 /// Fracture tests of every specimen on both meshes, damping as in wanted_fracture_tests(): first every layout with one

@@ -7,6 +7,7 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "explore/gamut_csv.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/ranges.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
@@ -43,6 +44,8 @@ void add_options(CLI::App& app, FloorOptions& options) {
       ->check(CLI::Range(12, 1000));
   app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
   app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
+  app.add_option("--specimens", options.specimens, "Numbers 0 to n - 1 of every design, the same on both meshes")
+      ->check(CLI::Range(1, 1000));
   study::add_fidelity_option(app, options.fidelity);
   study::add_table_options(app, options.table, "layouts and parameter sets");
 }
@@ -51,7 +54,8 @@ FloorPlan plan_of(const FloorOptions& options) {
   return {.fidelity = *tester::fidelity_from_string(options.fidelity),
           .seed = options.table.seed,
           .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
-          .sets = floor_parameter_sets(options.sets, options.table.seed)};
+          .sets = floor_parameter_sets(options.sets, options.table.seed),
+          .specimens = options.specimens};
 }
 
 std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed) {
@@ -72,13 +76,14 @@ std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_
   while (static_cast<int>(sets.size()) < count) {
     material::ModulusVector theta{};
     material::ToughnessVector eta{};
-    const auto theta_ranges = material::thesis_ranges().modulus(material::FitTarget::microstructures);
-    const auto eta_ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
+    const auto theta_ranges = material::default_ranges().modulus(material::FitTarget::microstructures);
+    const auto eta_ranges = material::default_ranges().toughness(material::FitTarget::microstructures);
     for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = drawn(theta_ranges[i], random);
     for (std::size_t i = 0; i < eta.size(); ++i) eta[i] = drawn(eta_ranges[i], random);
-    sets.push_back({.modulus = material::modulus_from_vector(theta),
-                    .toughness = material::toughness_from_vector(eta),
-                    .extensions = {}});
+    material::ParameterSet set = material::default_parameters();
+    set.modulus = material::modulus_from_vector(theta);
+    set.toughness = material::toughness_from_vector(eta);
+    sets.push_back(set);
   }
   return sets;
 }
@@ -92,17 +97,34 @@ double modulus_pa(const FloorPlan& plan, const pattern::Pattern& layout, const m
   return result->modulus_pa;
 }
 
-std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement) {
-  return fmt::format("{} {} {} {} {}", tester::to_string(plan.fidelity), plan.seed, plan.layouts[layout].key(), set,
-                     refinement);
+std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, int specimen) {
+  const material::ParameterSet& parameters = plan.sets[set];
+  const material::FailureCriterion& criterion = parameters.criterion;
+  std::string failure(material::to_string(criterion.kind));
+  if (criterion.kind == material::CriterionKind::neighbourhood) failure += fmt::format(" {}", criterion.radius_m);
+  if (criterion.kind == material::CriterionKind::crack_band) failure += fmt::format(" {}", criterion.softening);
+  for (const auto& [name, values] : parameters.extensions) failure += fmt::format(" {} {}", name, values.front());
+  return fmt::format("{} {} {} {} {} {} cv {} specimen {}", tester::to_string(plan.fidelity), plan.seed,
+                     plan.layouts[layout].key(), set, refinement, failure, parameters.strength_cv, specimen);
 }
 
-study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
-                                   const tester::Discretisation& discretisation, int specimen) {
+FloorPlan with_criterion(FloorPlan plan, const material::FailureCriterion& criterion, double strength_cv) {
+  for (material::ParameterSet& set : plan.sets) {
+    set.toughness = material::with_strengths(
+        set.toughness, material::strength_ratio(criterion) / material::strength_ratio(set.criterion));
+    set.criterion = criterion;
+    set.strength_cv = strength_cv;
+  }
+  return plan;
+}
+
+study::Wanted wanted_fracture_test(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
+                                   int specimen) {
+  const std::string key = toughness_key(plan, layout, set, refinement, specimen);
   const tester::Simulation simulation{
-      plan.layouts[layout], tester::refined(plan.sets[set], discretisation.refinement), {}, plan.fidelity, specimen};
+      plan.layouts[layout], tester::refined(plan.sets[set], refinement), {}, plan.fidelity, specimen};
   return {key, [=]() -> std::vector<double> {
-            const auto result = tester::test_toughness(simulation, discretisation);
+            const auto result = tester::test_toughness(simulation, {.refinement = refinement});
             if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};
             fmt::print(stderr, "{}: {}\n", key, result.error().message);
             return {0.0, 0.0, 0.0};
@@ -111,13 +133,11 @@ study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan
 
 std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan) {
   std::vector<study::Wanted> wanted;
-  for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
-    for (std::size_t i = 0; i < plan.layouts.size(); ++i)
-      for (const int refinement : {1, 2}) {
-        const std::size_t set = (i + pass) % plan.sets.size();
-        const std::string key = toughness_key(plan, i, set, refinement);
-        wanted.push_back(wanted_fracture_test(key, plan, i, set, {.refinement = refinement}));
-      }
+  for (int specimen = 0; specimen < plan.specimens; ++specimen)
+    for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
+      for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+        for (const int refinement : {1, 2})
+          wanted.push_back(wanted_fracture_test(plan, i, (i + pass) % plan.sets.size(), refinement, specimen));
   return wanted;
 }
 

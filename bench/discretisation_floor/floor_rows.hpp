@@ -22,11 +22,12 @@ struct FloorPlan {
   std::vector<pattern::Pattern> layouts;
   std::vector<material::ParameterSet> sets;  ///< the first is the default
   int sets_per_layout = 5;  ///< of a fracture test, in turn; every layout with all of them: as many as sets
+  int specimens = 1;        ///< of a fracture test: numbers 0 .. n - 1, the same on both meshes
 };
 
 /// Options of a program: its plan and its table.
 struct FloorOptions {
-  int layouts = 48, sets = 5;
+  int layouts = 48, sets = 5, specimens = 1;
   std::string fidelity = "preview", gamut = "bench/discretisation_floor/gamut.csv";
   study::TableOptions table;
 };
@@ -36,7 +37,7 @@ FloorPlan plan_of(const FloorOptions& options);
 /// Half of the layouts random, stratified over 50-85 % rigid; half the best ones (by rank) of a gamut.
 std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed);
 
-/// The defaults, then sets drawn from the middle half of every range of Table A.2.
+/// The defaults, then sets drawn from the middle half of every range of Table A.2 (W for the default criterion).
 std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_t seed);
 
 /// E on elements of size h / refinement, Pa. Throws InputError when a simulation fails.
@@ -44,14 +45,18 @@ double modulus_pa(const FloorPlan& plan, const pattern::Pattern& layout, const m
                   int refinement);
 
 inline const std::vector<std::string> kToughnessColumns = {"toughness_pa", "peak_stress_pa", "failure_strain"};
-/// The key of a fracture test of a layout with a set of the plan.
-std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement);
+/// The key of a fracture test of a layout with a set of the plan: it names criterion and variation of the set too.
+std::string toughness_key(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement, int specimen);
+
+/// The plan where every set has this criterion, W of the same fracture energy, and this strength_cv.
+FloorPlan with_criterion(FloorPlan plan, const material::FailureCriterion& criterion, double strength_cv);
 
 /// One fracture test on elements of size h / refinement, with parameters `tester::refined`. A failed test gives zeros.
-study::Wanted wanted_fracture_test(const std::string& key, const FloorPlan& plan, std::size_t layout, std::size_t set,
-                                   const tester::Discretisation& discretisation, int specimen = 0);
+study::Wanted wanted_fracture_test(const FloorPlan& plan, std::size_t layout, std::size_t set, int refinement,
+                                   int specimen);
 
-/// Fracture tests at h and h/2: first every layout with one parameter set, in turn, then with the next one.
+/// Fracture tests at h and h/2: first every layout with one parameter set, in turn, then with the next one, then all
+/// with the next specimen.
 std::vector<study::Wanted> wanted_fracture_tests(const FloorPlan& plan);
 
 }  // namespace nacre::discretisation_floor

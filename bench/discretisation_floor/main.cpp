@@ -9,7 +9,6 @@
 #include "base/files.hpp"
 #include "expectation_floor.hpp"
 #include "study/study_command.hpp"
-#include "tester/strength_field.hpp"
 #include "toughness_floor.hpp"
 
 namespace {
@@ -20,35 +19,42 @@ using namespace nacre::discretisation_floor;
 struct Options : FloorOptions {
   int sets_per_layout = 5;
   std::string output;
-  SpecimenPlan specimens;
-  std::string criterion = "element";
+  SpecimenPlan compared;
+  material::FailureCriterion criterion = material::base_criterion();
+  std::string criterion_name{material::to_string(criterion.kind)};
+  double strength_cv = material::kBaseStrengthCv;
 };
 
-/// Of means over specimens alone: the table for people, from what is finished.
-void run_expectation(const Options& options, const FloorPlan& plan, study::StudyTable& table) {
-  SpecimenPlan specimens = options.specimens;
-  if (specimens.fine == 0) specimens.fine = specimens.coarse;
-  if (!material::is_strength_cv(specimens.strength_cv) || specimens.strength_cv == 0.0)
-    throw InputError::format("--strength-cv {}: expected {} to {}", specimens.strength_cv,
+FloorPlan plan_from(const Options& options) {
+  const auto kind = material::criterion_from_string(options.criterion_name);
+  if (!kind) throw InputError::format("--criterion: {}", kind.error().message);
+  material::FailureCriterion criterion = options.criterion;
+  criterion.kind = *kind;
+  if (const std::string fault = material::criterion_fault(criterion); !fault.empty()) throw InputError(fault);
+  if (!material::is_strength_cv(options.strength_cv))
+    throw InputError::format("--strength-cv {}: expected 0 or {} to {}", options.strength_cv,
                              material::kSmallestStrengthCv, material::kLargestStrengthCv);
-  const auto criterion = material::criterion_from_string(options.criterion);
-  if (!criterion) throw InputError::format("--criterion: {}", criterion.error().message);
-  specimens.criterion.kind = *criterion;
-  if (const std::string fault = material::criterion_fault(specimens.criterion); !fault.empty()) throw InputError(fault);
+  FloorPlan plan = with_criterion(plan_of(options), criterion, options.strength_cv);
+  plan.sets_per_layout = std::min(options.sets, options.sets_per_layout);
+  return plan;
+}
+
+/// The table for people, from what is finished.
+void run_expectation(const Options& options, const FloorPlan& plan, study::StudyTable& table) {
+  SpecimenPlan specimens = options.compared;
+  specimens.coarse = options.specimens;
+  if (specimens.fine == 0) specimens.fine = specimens.coarse;
   const int missing =
       study::fill(table, wanted_specimens(plan, specimens), options.table.seconds, options.table.threads);
   const std::vector<DesignPair> designs = finished_designs(plan, specimens, table);
   fmt::print("{}, {}, strength_cv {}, {} designs, {} specimens on h/{}, {} on h/{}\n{}", options.fidelity,
-             options.criterion, specimens.strength_cv, designs.size(), specimens.coarse, specimens.refinement,
+             options.criterion_name, options.strength_cv, designs.size(), specimens.coarse, specimens.refinement,
              specimens.fine, 2 * specimens.refinement, expectation_table(designs, options.table.seed));
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
 }
 
-void run(const Options& options) {
-  FloorPlan plan = plan_of(options);
-  plan.sets_per_layout = std::min(options.sets, options.sets_per_layout);
-  study::StudyTable table(options.table.table, kToughnessColumns);
-  if (options.specimens.coarse > 0) return run_expectation(options, plan, table);
+/// The table of data/discretisation_floor.toml.
+void run_floor(const Options& options, const FloorPlan& plan, study::StudyTable& table) {
   const int missing = study::fill(table, wanted_fracture_tests(plan), options.table.seconds, options.table.threads);
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
   if (missing > 0 && options.output.empty()) return;
@@ -59,32 +65,32 @@ void run(const Options& options) {
   if (!options.output.empty()) write_file_atomically(options.output, text);
 }
 
+void run(const Options& options, bool compares_means) {
+  const FloorPlan plan = plan_from(options);
+  study::StudyTable table(options.table.table, kToughnessColumns);
+  compares_means ? run_expectation(options, plan, table) : run_floor(options, plan, table);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Discretisation floor: the testers on elements of size h against h/2"};
   Options options;
+  bool compares_means = false;
   options.table.table = "discretisation_floor.csv";
   add_options(app, options);
   app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")
       ->check(CLI::Range(1, 100));
-  app.add_option("--specimens", options.specimens.coarse, "Compare means over so many specimens of a design instead")
+  app.add_option("--strength-cv", options.strength_cv, "Variation of W between regions")->capture_default_str();
+  app.add_option("--criterion", options.criterion_name, "element, neighbourhood or crack_band")->capture_default_str();
+  app.add_option("--radius", options.criterion.radius_m, "Of the neighbourhood, m")->capture_default_str();
+  app.add_option("--softening", options.criterion.softening, "v0 of the crack band")->capture_default_str();
+  app.add_flag("--means", compares_means, "Compare means over specimens, with intervals, and print the table alone");
+  app.add_option("--fine-specimens", options.compared.fine, "On the finer mesh, with --means; as many by default")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--fine-specimens", options.specimens.fine, "On the finer mesh; as many by default")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--strength-cv", options.specimens.strength_cv, "Variation of W between their regions")
-      ->capture_default_str();
-  app.add_option("--criterion", options.criterion, "element, neighbourhood or crack_band")->capture_default_str();
-  app.add_option("--radius", options.specimens.criterion.radius_m, "Of the neighbourhood, m")->capture_default_str();
-  app.add_option("--softening", options.specimens.criterion.softening, "v0 of the crack band")->capture_default_str();
-  app.add_option("--tail", options.specimens.tail, "Size of progressive_damage beside the criterion")
-      ->check(CLI::Range(0.1, 10.0));
-  app.add_option("--strength-factor", options.specimens.strength_factor, "On every W, in a comparison of specimens")
-      ->check(CLI::Range(0.01, 100.0))
-      ->capture_default_str();
-  app.add_option("--refine", options.specimens.refinement, "The coarser mesh has elements of h / so many")
+  app.add_option("--refine", options.compared.refinement, "With --means: the coarser mesh has elements of h / so many")
       ->check(CLI::Range(1, 4));
   app.add_option("--out", options.output, "TOML file to write, from what is finished");
   CLI11_PARSE(app, argc, argv);
-  return study::exit_status_of([&] { run(options); });
+  return study::exit_status_of([&] { run(options, compares_means); });
 }

@@ -18,29 +18,69 @@ constexpr double kMiddleFraction = 0.675, kFractionUnit = 0.1;
 struct MeshPair {
   std::size_t layout = 0, set = 0;
   double z = 0.0;
-  double coarse_toughness = 0.0, fine_toughness = 0.0;
-  FeatureVector change;  ///< feature(h/2) - feature(h)
+  double coarse_toughness = 0.0, fine_toughness = 0.0;  ///< means over specimens, Pa
+  FeatureVector change;                                 ///< feature(h/2) - feature(h), mean over specimens
+  FeatureMatrix of_finite_n = FeatureMatrix::Zero();    ///< covariance of that mean
 };
 
+/// Log T, log peak and log failure strain, fine less coarse, of every specimen up to the first that failed; T of both.
+struct SpecimenChanges {
+  std::vector<FeatureVector> changes;
+  std::vector<double> coarse_pa, fine_pa;
+};
+
+SpecimenChanges changes_of(const FloorPlan& plan, const study::StudyTable& table, std::size_t layout, std::size_t set) {
+  SpecimenChanges result;
+  for (int specimen = 0; specimen < plan.specimens; ++specimen) {
+    const auto coarse = table.find(toughness_key(plan, layout, set, 1, specimen)),
+               fine = table.find(toughness_key(plan, layout, set, 2, specimen));
+    if (!coarse || !fine || (*coarse)[0] <= 0.0 || (*fine)[0] <= 0.0) break;
+    FeatureVector change = FeatureVector::Zero();
+    for (int f = 1; f < kFeatures; ++f) change[f] = std::log((*fine)[f - 1] / (*coarse)[f - 1]);
+    result.changes.push_back(change);
+    result.coarse_pa.push_back((*coarse)[0]);
+    result.fine_pa.push_back((*fine)[0]);
+  }
+  return result;
+}
+
+/// Of the mean of these; zero of fewer than two.
+FeatureMatrix covariance_of_mean(const std::vector<FeatureVector>& changes, const FeatureVector& middle) {
+  FeatureMatrix covariance = FeatureMatrix::Zero();
+  const auto n = static_cast<double>(changes.size());
+  if (changes.size() < 2) return covariance;
+  for (const FeatureVector& change : changes) covariance += (change - middle) * (change - middle).transpose();
+  return covariance / (n - 1.0) / n;
+}
+
+/// Designs with at least two specimens on both meshes (one where one is planned).
 std::vector<MeshPair> finished_pairs(const FloorPlan& plan, const study::StudyTable& table, const ModulusFloor& moduli,
                                      int& failed) {
   std::vector<MeshPair> pairs;
   for (std::size_t i = 0; i < plan.layouts.size(); ++i)
     for (std::size_t s = 0; s < plan.sets.size(); ++s) {
-      const auto coarse = table.find(toughness_key(plan, i, s, 1)), fine = table.find(toughness_key(plan, i, s, 2));
-      if (!coarse || !fine) continue;
-      if ((*coarse)[0] <= 0.0 || (*fine)[0] <= 0.0) {
-        ++failed;
+      const SpecimenChanges own = changes_of(plan, table, i, s);
+      const bool is_begun = table.find(toughness_key(plan, i, s, 2, 0)).has_value();
+      if (static_cast<int>(own.changes.size()) < std::min(2, plan.specimens)) {
+        failed += is_begun ? 1 : 0;
         continue;
       }
       MeshPair pair{
-          .layout = i, .set = s, .coarse_toughness = (*coarse)[0], .fine_toughness = (*fine)[0], .change = {}};
+          .layout = i, .set = s, .coarse_toughness = mean(own.coarse_pa), .fine_toughness = mean(own.fine_pa)};
       pair.z = (plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit;
+      pair.change = FeatureVector::Zero();
+      for (const FeatureVector& change : own.changes) pair.change += change / static_cast<double>(own.changes.size());
+      pair.of_finite_n = covariance_of_mean(own.changes, pair.change);
       pair.change[0] = moduli.residuals[s][i];  // refitted already
-      for (int f = 1; f < kFeatures; ++f) pair.change[f] = std::log((*fine)[f - 1] / (*coarse)[f - 1]);
       pairs.push_back(pair);
     }
   return pairs;
+}
+
+/// The nearest covariance without negative variances in any direction.
+FeatureMatrix without_negative_variances(const FeatureMatrix& matrix) {
+  const Eigen::SelfAdjointEigenSolver<FeatureMatrix> solver(matrix);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
 }
 
 /// The part of a mean change of (log T, log peak, log strain) that scales of all E and of all W cannot fit: that across
@@ -89,7 +129,7 @@ void correlate_layouts(const std::map<std::size_t, std::vector<double>>& residua
   for (const auto& [layout, values] : residuals)
     for (std::size_t a = 0; a < values.size(); ++a)
       for (std::size_t b = a + 1; b < values.size(); ++b) products += values[a] * values[b], ++floor.repeated;
-  if (floor.repeated > 0) floor.same_layout = products / floor.repeated / variance;
+  if (floor.repeated > 0 && variance > 0.0) floor.same_layout = products / floor.repeated / variance;
 }
 
 }  // namespace
@@ -98,13 +138,15 @@ ToughnessFloor toughness_floor(const FloorPlan& plan, const study::StudyTable& t
   ToughnessFloor floor;
   const std::vector<MeshPair> pairs = finished_pairs(plan, table, moduli, floor.failed);
   floor.pairs = static_cast<int>(pairs.size());
-  floor.mean.setZero(), floor.shared.setZero(), floor.rigid.setZero(), floor.layout.setZero();
+  floor.of_finite_n.setZero(), floor.mean.setZero(), floor.shared.setZero(), floor.rigid.setZero(),
+      floor.layout.setZero();
   std::map<std::size_t, std::vector<MeshPair>> by_set;
   std::set<std::size_t> layouts;
   for (const MeshPair& pair : pairs) {
     by_set[pair.set].push_back(pair);
     layouts.insert(pair.layout);
     floor.mean += pair.change / floor.pairs;
+    floor.of_finite_n += pair.of_finite_n / floor.pairs;
   }
   floor.layouts = static_cast<int>(layouts.size());
   std::map<std::size_t, std::vector<double>> residuals_of_layout;
@@ -138,8 +180,8 @@ ToughnessFloor toughness_floor(const FloorPlan& plan, const study::StudyTable& t
   }
   if (floor.sets == 0) return floor;
   floor.shared /= floor.sets, floor.rigid /= floor.sets, floor.spearman /= floor.sets;
-  floor.layout /= slope_freedom;
-  floor.sd = (squares / freedom).cwiseSqrt();
+  floor.layout = without_negative_variances(floor.layout / slope_freedom - floor.of_finite_n);
+  floor.sd = (squares / freedom - floor.of_finite_n.diagonal()).cwiseMax(0.0).cwiseSqrt();
   for (std::size_t k = 0; k < 2; ++k) floor.at_sd[k] = residuals[k].empty() ? 0.0 : root_mean_square(residuals[k]);
   correlate_layouts(residuals_of_layout, floor.layout(1, 1), floor);
   return floor;
@@ -147,8 +189,10 @@ ToughnessFloor toughness_floor(const FloorPlan& plan, const study::StudyTable& t
 
 std::string to_toml(const ToughnessFloor& floor) {
   if (floor.sets == 0) return "";
-  std::string text = fmt::format("toughness_layouts = {}\ntoughness_parameter_sets = {}\ntoughness_pairs = {}\n",
-                                 floor.layouts, floor.sets, floor.pairs);
+  std::string text = fmt::format(
+      "toughness_layouts = {}\ntoughness_parameter_sets = {}\ntoughness_pairs = {}\n"
+      "# Of means over specimens, less what their finite number makes (log T {:.4f}).\n",
+      floor.layouts, floor.sets, floor.pairs, std::sqrt(floor.of_finite_n(1, 1)));
   for (int f = 1; f < kFeatures; ++f)
     text += fmt::format("{}_mean = {:.4f}\n{}_sd = {:.5f}  # after one common factor per parameter set\n",
                         kFeatureNames[f], floor.mean[f], kFeatureNames[f], floor.sd[f]);

@@ -21,9 +21,10 @@ using FeatureVector = Eigen::Matrix<double, kFeatures, 1>;
 /// dimensional analysis gives (T with W; stress with sqrt(E W); strain with sqrt(W / E)).
 struct ToughnessFloor {
   int pairs = 0, layouts = 0, sets = 0, failed = 0;
-  FeatureVector mean, sd;  ///< feature(h/2) - feature(h) before the refit; sd after one common factor per set
-  double spearman = 0.0;   ///< of T, mean over the parameter sets
-  double at_sd[2] = {};    ///< of log T below and from 75 % rigid
+  FeatureVector mean, sd;     ///< feature(h/2) - feature(h) before the refit; sd after one common factor per set
+  FeatureMatrix of_finite_n;  ///< what the finite number of specimens adds to the covariance of a layout: taken off
+  double spearman = 0.0;      ///< of T, mean over the parameter sets
+  double at_sd[2] = {};       ///< of log T below and from 75 % rigid
   /// Covariance of the residuals between layouts i and j with z = (rigid fraction - 0.675) / 0.1:
   /// shared + z_i z_j rigid + (i = j) layout.
   FeatureMatrix shared, rigid, layout;

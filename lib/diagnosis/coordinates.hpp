@@ -23,7 +23,7 @@ struct Basis {
   bool coupon = false;     ///< E and nu of the bulk materials: homogeneous coupons
   material::ParameterSet centre =
       material::default_parameters();  ///< centre of the search for eta, and values of constants that are not searched
-  material::ParameterRanges ranges = material::thesis_ranges();  ///< of theta and the bulk constants
+  material::ParameterRanges ranges = material::default_ranges();  ///< of theta and the bulk constants
   ConstantRules rules = {};
 };
 

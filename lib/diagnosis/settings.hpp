@@ -16,8 +16,8 @@
 namespace nacre::diagnosis {
 
 struct DiagnosisSettings {
-  material::ParameterSet start;                                  ///< initial guess of the base fit
-  material::ParameterRanges ranges = material::thesis_ranges();  ///< moduli and ratios may leave them: CoordinateMap
+  material::ParameterSet start;                                   ///< initial guess of the base fit
+  material::ParameterRanges ranges = material::default_ranges();  ///< moduli and ratios may leave them: CoordinateMap
   tester::Fidelity fidelity = tester::Fidelity::full;
   Procedure procedure;
   int bootstraps = 2000;  ///< at least 2 / the level of a name: fewer could never reach it

@@ -19,6 +19,11 @@ ToughnessParameters with_strengths(ToughnessParameters eta, double factor) {
   return eta;
 }
 
+const ParameterRanges& default_ranges() {
+  static const ParameterRanges ranges = ranges_for(base_criterion());
+  return ranges;
+}
+
 ParameterRanges ranges_for(const FailureCriterion& criterion) {
   ParameterRanges ranges = thesis_ranges();
   const double ratio = strength_ratio(criterion);

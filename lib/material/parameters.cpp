@@ -114,8 +114,15 @@ ParameterSet default_parameters(const FailureCriterion& criterion) {
                                  .w_if_j_per_m3 = 1e7,
                                  .gamma_per_s = 2.828e5},
                    .extensions = {},
-                   .criterion = criterion};
+                   .criterion = criterion,
+                   .strength_cv = kBaseStrengthCv};
   set.toughness = with_strengths(set.toughness, strength_ratio(criterion));
+  return set;
+}
+
+ParameterSet thesis_parameters() {
+  ParameterSet set = default_parameters(FailureCriterion{.kind = CriterionKind::element});
+  set.strength_cv = 0.0;
   return set;
 }
 

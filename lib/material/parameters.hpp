@@ -68,9 +68,13 @@ struct ParameterSet {
 /// uncertainty of the parameters.
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random);
 
-/// Built-in parameters (of the default criterion: the content of data/defaults.toml): the measured base materials of
-/// Table 3.4 for the modulus tester, the geometric middle of Table A.2 for the toughness tester, W for that criterion.
-ParameterSet default_parameters(const FailureCriterion& criterion = {});
+/// Built-in parameters (of the base model's criterion: the content of data/defaults.toml): the measured base materials
+/// of Table 3.4 for the modulus tester, the geometric middle of Table A.2 for the toughness tester, W for that
+/// criterion, the base model's strength_cv.
+ParameterSet default_parameters(const FailureCriterion& criterion = base_criterion());
+
+/// The same by the thesis' model: every element fails by itself, and specimens are all alike.
+ParameterSet thesis_parameters();
 
 /// A sentence when the set lies outside what the testers can compute (E <= 0, nu outside [0, 0.5], W <= 0, unknown
 /// extension, extension parameter outside its range, strength_cv or a number of the criterion out of range, anything

@@ -41,6 +41,9 @@ struct ParameterRanges {
 /// Tables A.1 and A.2 (the content of data/thesis/parameter_ranges.csv), for TangoBlackPlus and VeroWhitePlus.
 const ParameterRanges& thesis_ranges();
 
+/// The same with the ranges of W for the base model's criterion (material/criterion_strengths.hpp).
+const ParameterRanges& default_ranges();
+
 /// `set` with every parameter outside its range for microstructures replaced by the middle of that range: the initial
 /// guess for other inks, of which only the ranges are known.
 ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& ranges);

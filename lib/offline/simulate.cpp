@@ -21,10 +21,10 @@ std::vector<SpecimenTest> wanted_tests(std::vector<SimulatedDesign>& designs, co
   std::vector<SpecimenTest> tests;
   if (settings.toughness) {
     for (SimulatedDesign& simulated : designs) {
-      const auto count = static_cast<std::size_t>(settings.choice.count);
+      const auto count = static_cast<std::size_t>(settings.specimens());
       simulated.pulled.assign(count, fail("not tested"));
       simulated.kernel_s.assign(count, 0.0);
-      for (int i = 0; i < settings.choice.count; ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
+      for (int i = 0; i < settings.specimens(); ++i) tests.push_back({&simulated, tester::TestKind::toughness, i});
     }
   }
   if (settings.modulus)
@@ -57,7 +57,7 @@ void sum_up(SimulatedDesign& simulated, const SimulateSettings& settings) {
 
 material::ParameterSet chosen_model(const material::ParameterReader& read, const ModelChoice& choice,
                                     const std::array<std::string_view, 2>& names) {
-  material::FailureCriterion criterion;
+  material::FailureCriterion criterion = material::base_criterion();
   if (choice.criterion) {
     const auto kind = material::criterion_from_string(*choice.criterion);
     if (!kind) throw InputError::format("{} {}: {}", names[0], *choice.criterion, kind.error().message);

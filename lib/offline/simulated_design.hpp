@@ -10,13 +10,15 @@
 #include "crack/mechanisms.hpp"
 #include "tester/expected_toughness.hpp"
 #include "tester/modulus.hpp"
+#include "tester/specimen_numbers.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::offline {
 
 /// Which specimens of every design are broken.
 struct SpecimenChoice {
-  int count = 1;
-  int refine = 1;  ///< elements of 1/refine
+  std::optional<int> count;  ///< nothing: as many as a prediction of T takes, one where all are alike
+  int refine = 1;            ///< elements of 1/refine
 };
 
 struct SimulateSettings {
@@ -25,11 +27,15 @@ struct SimulateSettings {
   bool modulus = true, toughness = true;  ///< which tests
   SpecimenChoice choice;
 
+  /// Specimens of each design.
+  int specimens() const {
+    return choice.count.value_or(tester::specimens_differ(parameters) ? tester::kPredictionSpecimens : 1);
+  }
   /// Simulations of one design.
-  int tests_of_a_design() const { return (modulus ? 1 : 0) + (toughness ? choice.count : 0); }
+  int tests_of_a_design() const { return (modulus ? 1 : 0) + (toughness ? specimens() : 0); }
 
   /// Whether T is told as a mean over specimens.
-  bool tells_mean() const { return choice.count > 1 || parameters.strength_cv > 0.0; }
+  bool tells_mean() const { return specimens() > 1 || parameters.strength_cv > 0.0; }
   /// Whether the JSON names the criterion: always, but where nothing departs from the thesis.
   bool tells_criterion() const { return tells_mean() || parameters.criterion.kind != material::CriterionKind::element; }
 };

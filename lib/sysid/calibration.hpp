@@ -21,8 +21,8 @@ namespace nacre::sysid {
 
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
-  material::ParameterRanges ranges = material::thesis_ranges();  ///< no fitted parameter leaves them
-  material::ParameterSet start;                                  ///< initial guess; its extensions are kept as they are
+  material::ParameterRanges ranges = material::default_ranges();  ///< no fitted parameter leaves them
+  material::ParameterSet start;                      ///< initial guess; its extensions are kept as they are
   std::vector<material::ParameterSet> other_starts;  ///< further initial guesses for eta, in its first batch; empty:
                                                      ///< chosen in the ranges
   int modulus_budget = 120;                          ///< evaluations of the modulus set; 0 keeps theta

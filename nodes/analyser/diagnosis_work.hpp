@@ -19,7 +19,7 @@ struct DiagnosisTask {
   std::vector<std::string> measurements;  ///< payloads of the MEASUREMENTs meant, in the order of the request
   int bootstraps = 2000;
   std::uint64_t seed = 1;
-  material::ParameterRanges ranges = material::thesis_ranges();
+  material::ParameterRanges ranges = material::default_ranges();
   diagnosis::ModulusFloor floor;
 };
 /// Spec of "diagnose"; its result is the payload of the DIAGNOSIS.

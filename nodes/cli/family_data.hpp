@@ -40,7 +40,7 @@ struct StagedFamily {
 struct FamilyData {
   std::vector<measurement::Replicates> measured;  ///< patterns alone
   material::ParameterSet parameters;
-  material::ParameterRanges ranges = material::thesis_ranges();  ///< of a family's own calibration
+  material::ParameterRanges ranges = material::default_ranges();  ///< of a family's own calibration
   tester::Fidelity fidelity = tester::Fidelity::full;
   std::vector<StagedFamily> staged;  ///< of the run's family stage, where one was played
 };

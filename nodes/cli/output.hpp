@@ -38,7 +38,7 @@ void check_standard_output();
 /// The parameter file given, what it leaves out from `start`; `start` where none is given. Warns of a value that is a
 /// hundred times outside the ranges in which it is fitted: its unit may be another. Throws InputError.
 material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start,
-                                              const material::ParameterRanges& ranges = material::thesis_ranges());
+                                              const material::ParameterRanges& ranges = material::default_ranges());
 
 /// A figure with four decimals, or with three digits where these would leave little of it.
 std::string shown(double value);

@@ -90,7 +90,7 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
   for (const SimulatedDesign& simulated : designs)
     for (std::size_t i = 0; i < simulated.pulled.size(); ++i) {
       if (!simulated.pulled[i]) continue;
-      const std::string number = options.choice.count > 1 ? fmt::format("-{}", i) : "";
+      const std::string number = simulated.pulled.size() > 1 ? fmt::format("-{}", i) : "";
       write_file_atomically(
           std::filesystem::path(options.curves) / (file_stem(simulated.design.name()) + number + ".csv"),
           measurement::to_csv(simulated.pulled[i]->curve));
@@ -98,12 +98,12 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
 }
 
 /// Before anything is computed: the specimens that were asked for exist.
-void check_specimen_options(const Options& options, const material::ParameterSet& parameters) {
+void check_specimen_options(const Options& options, const SimulateSettings& settings) {
   if (options.choice.refine > 1 && options.wants_films())
     throw InputError("--frames and --film show unrefined elements: leave out --refine");
-  if (options.choice.count > 1 && !tester::specimens_differ(parameters))
-    warn(fmt::format("--specimens {}: without --strength-cv they are all alike", options.choice.count));
-  if (options.choice.count > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
+  if (settings.specimens() > 1 && !tester::specimens_differ(settings.parameters))
+    warn(fmt::format("--specimens {}: without --strength-cv they are all alike", settings.specimens()));
+  if (settings.specimens() > 1 && options.wants_films()) remark("films show specimen 0, T is the mean over specimens");
 }
 
 /// Before anything is computed: a GIF shows one specimen, and the outputs can be written.
@@ -128,7 +128,7 @@ int simulate(const Options& options) {
       .modulus = options.test != "toughness",
       .toughness = options.test != "modulus",
       .choice = options.choice};
-  check_specimen_options(options, settings.parameters);
+  check_specimen_options(options, settings);
   check_output_options(options);
   run_tests(designs, options, settings);
   write_curves(designs, options);
@@ -154,9 +154,10 @@ void add_simulate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
   add_fidelity(command, options->fidelity)->capture_default_str();
-  command.add_option("--specimens", options->choice.count, "T is the mean over so many specimens of each pattern")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  command
+      .add_option("--specimens", options->choice.count,
+                  "T is the mean over so many specimens of each pattern; default: 8, of a model without variation 1")
+      ->check(CLI::Range(1, 1000));
   command.add_option("--strength-cv", options->model.strength_cv,
                      "Variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4; default: the "
                      "model's");

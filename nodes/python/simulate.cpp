@@ -22,14 +22,14 @@ using offline::SimulateSettings;
 
 struct Arguments {
   std::string test, fidelity;
-  int specimens;
+  std::optional<int> specimens;
   offline::ModelChoice model;
   int refine;
   int frame_count;  ///< 0: no films
 };
 
 SimulateSettings settings_from(const Arguments& given, const py::object& params) {
-  require_range("specimens", given.specimens, 1, 1000);
+  if (given.specimens) require_range("specimens", *given.specimens, 1, 1000);
   require_range("refine", given.refine, 1, 8);
   if (given.test != "modulus" && given.test != "toughness" && given.test != "both")
     throw InputError::format("test {}: expected modulus, toughness or both", given.test);
@@ -108,7 +108,7 @@ patterns: one design, a list of them, or a numpy array of n x 20 x 20. A design 
 params: path of a parameter file or a dict of its form (see read_parameters); None: the built-in parameters.
 test: "modulus", "toughness" or "both".
 fidelity: "full" (as in the thesis), "preview" (the same pulled twice as fast) or "tiny" (its numbers mean nothing).
-specimens: 1 to 1000; T is the mean over so many specimens of each pattern.
+specimens: 1 to 1000; T is the mean over so many specimens of each pattern. None: 8, of a model without variation 1.
 strength_cv: variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4; None: the model's.
 criterion: when elements fail: "element", "neighbourhood" or "crack_band"; None: the model's.
 refine: 1 to 8, elements of 1/refine with the same specimens.
@@ -130,13 +130,13 @@ void add_simulate(py::module_& module) {
   module.def(
       "simulate",
       [](const py::object& patterns, const py::object& params, const std::string& test, const std::string& fidelity,
-         int specimens, std::optional<double> strength_cv, const std::optional<std::string>& criterion, int refine,
-         int film, const py::object& progress) {
+         std::optional<int> specimens, std::optional<double> strength_cv, const std::optional<std::string>& criterion,
+         int refine, int film, const py::object& progress) {
         return simulate(patterns, params, {test, fidelity, specimens, {criterion, strength_cv}, refine, film},
                         progress);
       },
       py::arg("patterns"), py::kw_only(), py::arg("params") = py::none(), py::arg("test") = "both",
-      py::arg("fidelity") = "full", py::arg("specimens") = 1, py::arg("strength_cv") = py::none(),
+      py::arg("fidelity") = "full", py::arg("specimens") = py::none(), py::arg("strength_cv") = py::none(),
       py::arg("criterion") = py::none(), py::arg("refine") = 1, py::arg("film") = 0, py::arg("progress") = py::none(),
       kSimulate);
 }

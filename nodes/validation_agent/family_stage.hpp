@@ -23,7 +23,7 @@ struct StageBeginning {
   std::vector<measurement::Replicates> measured;  ///< game::patterns_with_both()
   std::vector<optimize::Performance> benchmark;
   std::vector<pattern::Pattern> settled;  ///< not worth choosing again
-  material::ParameterRanges ranges = material::thesis_ranges();
+  material::ParameterRanges ranges = material::default_ranges();
   sysid::DiscretisationFloor floor;
 };
 

@@ -29,7 +29,7 @@ struct StartingPoint {
   std::vector<measurement::Replicates>
       base_materials;                            ///< that round 0 is fitted to; empty: the model is taken as it is
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
-  material::ParameterRanges ranges = material::thesis_ranges();
+  material::ParameterRanges ranges = material::default_ranges();
   sysid::DiscretisationFloor floor;  ///< at the scenario's fidelity
 };
 

@@ -26,7 +26,7 @@ TEST(ExplicitModulus, AtRestIsTheStaticModulus) {
   for (const int rigid_percent : {50, 65, 80}) designs.emplace_back(pattern::random_pattern(rigid_percent, random));
   for (const pattern::Design& design : designs) {
     const fem::Grid grid =
-        tester::assemble(design, material::default_parameters(), {}, tester::AssemblyTarget::modulus, 2, 1);
+        tester::assemble(design, material::thesis_parameters(), {}, tester::AssemblyTarget::modulus, 2, 1);
     const double expected = static_modulus(grid);
     for (const double gamma_per_s : {1e5, 3e5})
       EXPECT_NEAR(tester::explicit_modulus_at_rest(grid, gamma_per_s).value() / expected, 1.0, 1e-3)
@@ -36,7 +36,7 @@ TEST(ExplicitModulus, AtRestIsTheStaticModulus) {
 
 TEST(ExplicitModulus, IsWhatTheTesterGivesWhenAsked) {
   tester::Simulation simulation{.design = pattern::design_from_name("577fffe9fffdef").value(),
-                                .parameters = material::default_parameters(),
+                                .parameters = material::thesis_parameters(),
                                 .conditions = {},
                                 .fidelity = tester::Fidelity::tiny};
   simulation.parameters.modulus.gamma_per_s = 2e5;

@@ -20,7 +20,7 @@ namespace {
 
 tester::Simulation specimen() {
   return {.design = pattern::design_from_name("577fffe9fffdef").value(),
-          .parameters = material::default_parameters(),
+          .parameters = material::thesis_parameters(),
           .conditions = {},
           .fidelity = tester::Fidelity::tiny};
 }

@@ -14,7 +14,7 @@
 namespace nacre::verification {
 
 inline tester::Simulation specimen(const pattern::Design& design, tester::Fidelity fidelity = tester::Fidelity::tiny) {
-  return {.design = design, .parameters = material::default_parameters(), .conditions = {}, .fidelity = fidelity};
+  return {.design = design, .parameters = material::thesis_parameters(), .conditions = {}, .fidelity = fidelity};
 }
 
 /// published_a and random patterns of 50 to 85 % rigid pixels.

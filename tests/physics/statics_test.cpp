@@ -17,7 +17,7 @@ namespace nacre {
 namespace {
 
 constexpr double kStrain = 1e-4;
-const material::ParameterSet kDefaults = material::default_parameters();
+const material::ParameterSet kDefaults = material::thesis_parameters();
 
 double modulus_of(const pattern::Design& design, const material::ParameterSet& parameters = kDefaults,
                   int refinement = 1) {

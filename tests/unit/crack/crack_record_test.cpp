@@ -197,8 +197,7 @@ TEST(CrackRecord, NoPathIsShorterThanStraightAndSharesAddUp) {
 }
 
 TEST(CrackRecord, OfASimulatedSpecimenRunsFromTheNotch) {
-  const tester::Simulation simulation{
-      pattern::Mixture{1.0}, material::default_parameters(), {}, tester::Fidelity::tiny};
+  const tester::Simulation simulation{pattern::Mixture{1.0}, material::thesis_parameters(), {}, tester::Fidelity::tiny};
   const tester::ToughnessResult result = tester::test_toughness(simulation).value();
   const CrackRecord record = record_of(simulation, result.breaks);
   EXPECT_EQ(record.columns, 40);

@@ -23,7 +23,7 @@ namespace {
 /// From the built-in parameters, on the specimens of synthetic_set.hpp.
 DiagnosisSettings tiny_settings() {
   DiagnosisSettings settings;
-  settings.start = material::default_parameters();
+  settings.start = material::thesis_parameters();
   settings.fidelity = tester::Fidelity::tiny;
   return settings;
 }

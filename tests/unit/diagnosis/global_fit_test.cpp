@@ -14,7 +14,7 @@ class GlobalFit : public testing::Test {
     material::ParameterSet truth = synthetic_truth();
     if (mixing > 0.0) truth.extensions["droplet_mixing"] = {mixing};
     observations_ = observe(synthetic_specimens({.patterns = 10, .twins = 2}, truth), 0.003, {}, {});
-    const Basis basis = basis_for(observations_, material::default_parameters(), material::thesis_ranges(), {});
+    const Basis basis = basis_for(observations_, material::thesis_parameters(), material::default_ranges(), {});
     model_.emplace(observations_, basis, tester::Fidelity::tiny);
     middle_ = model_->base_map().coordinates(basis.centre);
   }

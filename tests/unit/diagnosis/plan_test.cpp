@@ -15,7 +15,7 @@ namespace {
 class Plans : public testing::Test {
  protected:
   Plans() {
-    settings_.start = material::default_parameters();
+    settings_.start = material::thesis_parameters();
     settings_.fidelity = tester::Fidelity::tiny;
   }
   PlannedEffect planned(const std::vector<measurement::SpecimenRecord>& specimens, std::string_view effect) const {
@@ -58,7 +58,7 @@ TEST_F(Plans, CouponsAreThoseOfTheInksThatAreGiven) {
     return planned(synthetic_coupons(settings_.start, {1e-3}, 3, 0.0, 1), "rigid_yield").smallest_seen.value();
   };
   const double own = planned_yield();
-  settings_.start = material::default_parameters();
+  settings_.start = material::thesis_parameters();
   settings_.ranges = material::thesis_ranges();
   EXPECT_LT(own, 0.6 * planned_yield());
 }

@@ -22,7 +22,7 @@ constexpr int kReplicates = 3;
 /// Moduli with a shared discretisation error.
 DiagnosisSettings tiny_settings() {
   DiagnosisSettings settings{};
-  settings.start = material::default_parameters();
+  settings.start = material::thesis_parameters();
   settings.fidelity = tester::Fidelity::tiny;
   settings.floor = {.log_modulus_sd = 0.01, .mesh_amplitude = 0.5, .mesh_remainder_sd = 0.003};
   settings.bootstraps = 1;

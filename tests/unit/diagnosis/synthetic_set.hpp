@@ -109,7 +109,7 @@ inline std::vector<measurement::SpecimenRecord> synthetic_coupons(
 
 /// A truth that the base fit has to find first: constants away from the defaults.
 inline material::ParameterSet synthetic_truth() {
-  material::ParameterSet truth = material::default_parameters();
+  material::ParameterSet truth = material::thesis_parameters();
   truth.modulus.e_vw_pa *= 0.93;
   truth.modulus.e_if_pa *= 1.08;
   truth.modulus.nu_vw = 0.33;

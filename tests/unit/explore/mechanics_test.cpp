@@ -14,7 +14,7 @@ namespace {
 using pattern::random_patterns;
 
 TEST(Mechanics, UnitCellsPredictTheModuliOfPatternsThatNobodySimulated) {
-  const material::ParameterSet parameters = material::default_parameters();
+  const material::ParameterSet parameters = material::thesis_parameters();
   const Mechanics mechanics = mechanics_by_tester(parameters, tester::Fidelity::preview, 1);
   const auto learnt = random_patterns(30, 1), unseen = random_patterns(60, 2);
   const auto moduli_of = [&](const std::vector<pattern::Pattern>& patterns) {
@@ -37,7 +37,7 @@ TEST(Mechanics, UnitCellsPredictTheModuliOfPatternsThatNobodySimulated) {
 
 TEST(Mechanics, AreThoseOfTheModelAskedAboutOnAnyNumberOfThreads) {
   const auto patterns = random_patterns(12, 3);
-  const material::ParameterSet parameters = material::default_parameters();
+  const material::ParameterSet parameters = material::thesis_parameters();
   material::ParameterSet softer = parameters;
   softer.modulus.e_vw_pa *= 0.5;
   softer.toughness.w_vw_j_per_m3 *= 0.5;

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 const tester::Simulation& simulation() {
   static const tester::Simulation instance{
-      pattern::Pattern(0x577fffe9fffdef), material::default_parameters(), {}, tester::Fidelity::tiny};
+      pattern::Pattern(0x577fffe9fffdef), material::thesis_parameters(), {}, tester::Fidelity::tiny};
   return instance;
 }
 

@@ -32,7 +32,7 @@ measurement::SpecimenRecord specimen_of(tester::TestKind test, tester::Curve cur
 }
 
 TEST(Plausibility, DoubtsUnitsAndNothingElse) {
-  const material::ParameterSet model = material::default_parameters();
+  const material::ParameterSet model = material::thesis_parameters();
   UnitDoubts units(model, tester::Fidelity::tiny);
   const double modulus_pa =
       tester::test_modulus({*pattern::design_from_name("rigid"), model, {}, tester::Fidelity::tiny})->modulus_pa;
@@ -52,7 +52,7 @@ TEST(Plausibility, DoubtsUnitsAndNothingElse) {
 }
 
 TEST(Plausibility, ReplicatesAreSimulatedOnce) {
-  UnitDoubts units(material::default_parameters(), tester::Fidelity::tiny);
+  UnitDoubts units(material::thesis_parameters(), tester::Fidelity::tiny);
   measurement::SpecimenRecord specimen = specimen_of(tester::TestKind::modulus, {});
   specimen.modulus_pa = 1e3;
   for (int replicate = 0; replicate < 3; ++replicate) EXPECT_TRUE(units.about(specimen));

@@ -178,7 +178,7 @@ TEST(Standings, PredictedDesignsAreMeasuredOnesWithTheirPredictions) {
 
 // With an adopted machine the gamut, which knows the material side alone, would lie far above what can be measured.
 TEST(Machine, GamutAndMeasurementsMeetInWhatItShows) {
-  material::ParameterSet model = material::default_parameters();
+  material::ParameterSet model = material::thesis_parameters();
   const optimize::Performance simulated{1.9e9, 3e5};
   EXPECT_EQ(through_machine(simulated, model).modulus_pa, simulated.modulus_pa);
   model.extensions = {{"machine_compliance", {3e-10}}, {"load_cell_gain", {0.02}}, {"droplet_mixing", {1.0}}};

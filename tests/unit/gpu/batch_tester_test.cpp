@@ -19,7 +19,7 @@ namespace {
 tester::FractureTest fracture_of(const std::string& key, const material::Extensions& extensions = {},
                                  double strain_limit = 0.0) {
   tester::Simulation simulation{.design = pattern::design_from_name(key).value(),
-                                .parameters = material::default_parameters(),
+                                .parameters = material::thesis_parameters(),
                                 .conditions = {},
                                 .fidelity = tester::Fidelity::tiny};
   simulation.parameters.extensions = extensions;

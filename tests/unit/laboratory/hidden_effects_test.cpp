@@ -262,7 +262,7 @@ TEST(HiddenCoupons, YieldStiffenAndRelaxAsTheSimulatorsDo) {
   const auto differs = [&](double rigid_fraction, double strain, const material::Extensions& extensions) {
     const tester::Curve curve = coupon_curve(truth, rigid_fraction, {}, tester::strain_path({{strain}}, strain / 49.0));
     tester::Simulation simulation{.design = pattern::Mixture{rigid_fraction},
-                                  .parameters = material::default_parameters(),
+                                  .parameters = material::thesis_parameters(),
                                   .conditions = {},
                                   .fidelity = tester::Fidelity::full};
     simulation.parameters.modulus = truth.modulus;
@@ -321,7 +321,7 @@ double laboratory_over_tester(const material::FailureCriterion& criterion) {
   const Experiment experiment{
       .design = some_pattern(), .test = TestKind::toughness, .conditions = {}, .fidelity = tester::Fidelity::tiny};
   tester::Simulation simulation{.design = experiment.design,
-                                .parameters = material::default_parameters(),
+                                .parameters = material::thesis_parameters(),
                                 .conditions = {},
                                 .fidelity = experiment.fidelity};
   simulation.parameters.toughness = truth.toughness;

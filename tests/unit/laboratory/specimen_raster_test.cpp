@@ -20,7 +20,7 @@ Truth plain_truth() {
 }
 
 material::ParameterSet parameters_of(const Truth& truth) {
-  material::ParameterSet parameters = material::default_parameters();
+  material::ParameterSet parameters = material::thesis_parameters();
   parameters.modulus = truth.modulus;
   parameters.toughness = truth.toughness;
   return parameters;
@@ -46,7 +46,7 @@ fem::Phase phase_of(Site site) {
 TEST(SpecimenRaster, SitesAtTheCentresOfTesterElementsAreTheTestersAssignment) {
   for (const pattern::Layout& layout : sample_layouts()) {
     const fem::Grid grid =
-        tester::assemble(layout, material::default_parameters(), {}, tester::AssemblyTarget::toughness, 2, 1);
+        tester::assemble(layout, material::thesis_parameters(), {}, tester::AssemblyTarget::toughness, 2, 1);
     for (int row = 0; row < grid.rows; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
         const Site site = site_at(layout, (column + 0.5) * kTesterElementM, (row + 0.5) * kTesterElementM);
@@ -142,7 +142,7 @@ TEST(SpecimenRaster, NotchAndCutAreVoidWhereTheTestersAre) {
   for (const tester::Fidelity fidelity : {tester::Fidelity::tiny, tester::Fidelity::preview, tester::Fidelity::full}) {
     const SpecimenSize size = specimen_size(tester::TestKind::toughness, fidelity);
     const tester::FractureTest test = tester::fracture_test({.design = pattern::Mixture{1.0},
-                                                             .parameters = material::default_parameters(),
+                                                             .parameters = material::thesis_parameters(),
                                                              .conditions = {},
                                                              .fidelity = fidelity});
     ASSERT_EQ(size.columns, test.grid.columns);

@@ -36,7 +36,7 @@ TEST(Mixture, IsContinuous) {
 }
 
 TEST(Mixture, NeverFailsInTheModulusTester) {
-  const Phases phases = phases_of(default_parameters().modulus);
+  const Phases phases = phases_of(thesis_parameters().modulus);
   for (const double fraction : {0.0, 0.3, 0.5, 0.8, 1.0})
     EXPECT_TRUE(std::isinf(mixture(phases, fraction).threshold_j_per_m3));
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// A rigid coupon that flows, pulled, unloaded and pulled on.
 tester::Curve pulled(const std::vector<double>& strain) {
-  material::ParameterSet parameters = material::default_parameters();
+  material::ParameterSet parameters = material::thesis_parameters();
   parameters.extensions["rigid_yield"] = {2.5e7};
   return tester::test_tensile({pattern::Mixture{1.0}, parameters, {}, tester::Fidelity::tiny}, strain).value();
 }

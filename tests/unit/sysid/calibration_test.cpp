@@ -71,7 +71,7 @@ Prediction stand_in_prediction(const Replicates& measured, const ParameterSet& p
 }
 
 ParameterSet truth() {
-  ParameterSet parameters = material::default_parameters();
+  ParameterSet parameters = material::thesis_parameters();
   parameters.modulus.e_vw_pa = 2.3e9;
   parameters.modulus.e_if_pa = 6.4e8;
   parameters.toughness.e_vw_pa = 6e8;
@@ -120,7 +120,7 @@ Calibrated finish(Calibration& calibration, const std::vector<Replicates>& measu
 
 CalibrationSettings settings() {
   CalibrationSettings result;
-  result.start = material::default_parameters();
+  result.start = material::thesis_parameters();
   return result;
 }
 
@@ -493,7 +493,7 @@ TEST(Calibration, SaysThatTheModelMisfitsWhenItLacksAnEffect) {
 /// Moduli of designs that the default parameters describe: three replicates that scatter by 0.3 %, and the
 /// discretisation error of `floor` in each design.
 std::vector<Replicates> designs_without_effect(int count, const DiscretisationFloor& floor, RandomStream& random) {
-  std::vector<Replicates> measured = measured_designs(count, material::default_parameters());
+  std::vector<Replicates> measured = measured_designs(count, material::thesis_parameters());
   for (Replicates& design : measured) {
     const double shown_pa = design.modulus_pa * std::exp(floor.log_modulus_sd * random.normal());
     std::vector<double> moduli_pa(3);

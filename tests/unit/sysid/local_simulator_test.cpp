@@ -15,7 +15,7 @@ std::vector<measurement::Replicates> one_design() {
 
 WantedEvaluation of_specimens(double strength_cv, int first, int count) {
   WantedEvaluation evaluation{
-      .id = "1", .parameters = material::default_parameters(), .modulus = true, .toughness = true, .items = {0}};
+      .id = "1", .parameters = material::thesis_parameters(), .modulus = true, .toughness = true, .items = {0}};
   evaluation.parameters.strength_cv = strength_cv;
   evaluation.first_specimen = first;
   evaluation.specimens = count;

@@ -18,7 +18,7 @@ namespace {
 using fem::Grid;
 using fem::Phase;
 
-const material::ParameterSet kDefaults = material::default_parameters();
+const material::ParameterSet kDefaults = material::thesis_parameters();
 
 /// Without any symmetry, so that no mix-up of axes goes unseen.
 pattern::Layout lopsided_layout() {

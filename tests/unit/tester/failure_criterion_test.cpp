@@ -48,7 +48,7 @@ TEST(FailureCriterion, TailIsScaledAndTheEffectIsTheTotal) {
 }
 
 Simulation question() {
-  return {.design = pattern::Mixture{1.0}, .parameters = material::default_parameters(), .conditions = {}};
+  return {.design = pattern::Mixture{1.0}, .parameters = material::thesis_parameters(), .conditions = {}};
 }
 
 TEST(FailureCriterion, IsPartOfTheKeyOfAFractureTest) {

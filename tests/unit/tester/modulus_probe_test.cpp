@@ -12,7 +12,7 @@ namespace {
 
 Simulation specimen(const material::Extensions& extensions = {}) {
   Simulation simulation{
-      *pattern::design_from_name("577fffe9fffdef"), material::default_parameters(), {}, Fidelity::tiny};
+      *pattern::design_from_name("577fffe9fffdef"), material::thesis_parameters(), {}, Fidelity::tiny};
   simulation.parameters.extensions = extensions;
   return simulation;
 }

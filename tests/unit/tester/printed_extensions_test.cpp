@@ -29,7 +29,7 @@ pattern::Pattern some_pattern() {
 
 Simulation with(material::Extensions extensions, pattern::Design design = some_pattern()) {
   Simulation simulation{.design = std::move(design),
-                        .parameters = material::default_parameters(),
+                        .parameters = material::thesis_parameters(),
                         .conditions = {},
                         .fidelity = Fidelity::tiny};
   simulation.parameters.extensions = std::move(extensions);
@@ -181,7 +181,7 @@ TEST(StrengthScatter, OfAFinerMeshIsThatOfTheVoxels) {
 
 Grid notched(double radius, int refinement = 1) {
   Grid grid =
-      assemble(pattern::Mixture{1.0}, material::default_parameters(), {}, AssemblyTarget::toughness, 5, 4, refinement);
+      assemble(pattern::Mixture{1.0}, material::thesis_parameters(), {}, AssemblyTarget::toughness, 5, 4, refinement);
   cut_notch(grid, refinement);
   round_notch_root(grid, refinement, radius);
   return grid;
@@ -192,7 +192,7 @@ double matter(const Grid& grid, int refinement = 1) {
   double area = 0.0;
   for (std::size_t e = 0; e < grid.phase.size(); ++e)
     area +=
-        grid.phase[e] == fem::Phase::empty ? 0.0 : grid.young_pa[e] / material::default_parameters().toughness.e_vw_pa;
+        grid.phase[e] == fem::Phase::empty ? 0.0 : grid.young_pa[e] / material::thesis_parameters().toughness.e_vw_pa;
   return area / (refinement * refinement);
 }
 
@@ -208,12 +208,12 @@ TEST(BluntNotch, DrillsACircleWhoseFrontStaysWhereTheNotchEnds) {
 }
 
 TEST(BluntNotch, ElementsThatItCutsYieldByTheAreaLeftToo) {
-  Grid grid = assemble(pattern::Mixture{1.0}, material::default_parameters(), {}, AssemblyTarget::toughness, 5, 4, 1);
+  Grid grid = assemble(pattern::Mixture{1.0}, material::thesis_parameters(), {}, AssemblyTarget::toughness, 5, 4, 1);
   grid.laws.yield_pa.assign(grid.phase.size(), 2e7);
   round_notch_root(grid, 1, 0.03);
   for (std::size_t e = 0; e < grid.phase.size(); ++e) {
     if (grid.phase[e] == fem::Phase::empty) continue;
-    EXPECT_NEAR(grid.laws.yield_pa[e] / 2e7, grid.young_pa[e] / material::default_parameters().toughness.e_vw_pa, 1e-9);
+    EXPECT_NEAR(grid.laws.yield_pa[e] / 2e7, grid.young_pa[e] / material::thesis_parameters().toughness.e_vw_pa, 1e-9);
   }
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 Simulation question() {
   return {.design = pattern::design_from_name("577fffe9fffdef").value(),
-          .parameters = material::default_parameters(),
+          .parameters = material::thesis_parameters(),
           .conditions = {},
           .fidelity = Fidelity::full};
 }

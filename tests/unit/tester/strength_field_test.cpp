@@ -19,7 +19,7 @@ namespace {
 /// Of specimen 0.
 Simulation of_cv(double strength_cv, Fidelity fidelity = Fidelity::tiny) {
   Simulation simulation{.design = pattern::design_from_name("577fffe9fffdef").value(),
-                        .parameters = material::default_parameters(),
+                        .parameters = material::thesis_parameters(),
                         .conditions = {},
                         .fidelity = fidelity};
   simulation.parameters.strength_cv = strength_cv;

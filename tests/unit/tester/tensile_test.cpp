@@ -14,7 +14,7 @@ namespace {
 
 Simulation coupon(double rigid_fraction) {
   return {.design = pattern::Mixture{rigid_fraction},
-          .parameters = material::default_parameters(),
+          .parameters = material::thesis_parameters(),
           .conditions = {},
           .fidelity = Fidelity::full};
 }

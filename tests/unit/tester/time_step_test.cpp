@@ -7,7 +7,7 @@ namespace {
 
 /// T of a homogeneous specimen whose threshold is met at large strain, so that an unstable step has time to grow.
 double toughness(double rigid_fraction, double gamma_per_s, double time_step_scale) {
-  Simulation simulation{pattern::Mixture{rigid_fraction}, material::default_parameters(), {}, Fidelity::tiny};
+  Simulation simulation{pattern::Mixture{rigid_fraction}, material::thesis_parameters(), {}, Fidelity::tiny};
   simulation.parameters.toughness.e_tb_pa = 1e6;
   simulation.parameters.toughness.w_tb_j_per_m3 = 3e5;
   simulation.parameters.toughness.gamma_per_s = gamma_per_s;

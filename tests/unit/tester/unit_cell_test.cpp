@@ -21,7 +21,7 @@ std::vector<pattern::Pattern> random_patterns(int count) {
 }
 
 TEST(UnitCell, AllRigidItIsTheRigidMaterialLoadedEverywhereAlike) {
-  const material::ParameterSet parameters = material::default_parameters();
+  const material::ParameterSet parameters = material::thesis_parameters();
   const auto cell = pull_unit_cell(pattern::Pattern(pattern::kAllFreePixels), parameters, AssemblyTarget::toughness);
   ASSERT_TRUE(cell) << cell.error().message;
   const material::ToughnessParameters& eta = parameters.toughness;
@@ -34,7 +34,7 @@ TEST(UnitCell, AllRigidItIsTheRigidMaterialLoadedEverywhereAlike) {
 TEST(UnitCell, PredictsTheModulusTester) {
   const auto patterns = random_patterns(60);
   for (const double mixing_pixels : {0.0, 0.8}) {
-    material::ParameterSet parameters = material::default_parameters();
+    material::ParameterSet parameters = material::thesis_parameters();
     if (mixing_pixels > 0.0) parameters.extensions["droplet_mixing"] = {mixing_pixels};
     std::vector<double> predicted, tested;
     for (const pattern::Pattern& pattern : patterns) {
@@ -50,7 +50,7 @@ TEST(UnitCell, PredictsTheModulusTester) {
 TEST(UnitCell, TheWeakestPlaceIsLoadedMost) {
   pattern::Pattern pattern(pattern::kAllFreePixels);
   for (int column = 0; column < pattern::kSide; ++column) pattern.set(9, column, false);
-  const auto cell = pull_unit_cell(pattern, material::default_parameters(), AssemblyTarget::toughness);
+  const auto cell = pull_unit_cell(pattern, material::thesis_parameters(), AssemblyTarget::toughness);
   const auto most = std::max_element(cell->load.begin(), cell->load.end()) - cell->load.begin();
   EXPECT_EQ(most / kCellBlocks, kCellBlocks - 1);
 }
