@@ -29,7 +29,7 @@ FittedModel true_model(const Evidence& evidence, const laboratory::Truth& truth,
       start[held.back()] = material::strength_of(parameters[p], values[p]);
     }
   }
-  return fit_model(evidence.model, evidence.observations, map.effects(), start, held);
+  return fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit, map.effects(), start, held);
 }
 
 /// Share of the errors of all features that is gone, each in units of its noise.
@@ -49,10 +49,11 @@ TrueGain true_gain(const BlindTrial& trial, const TrialOptions& options, const f
   settings.floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
   settings.fracture_discretisation =
       read_fracture_discretisation(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
-  Workbench workbench(measurement::read_measurement_set(folder / "set").specimens, settings);
-  const Evidence evidence = gather_evidence(workbench, settings);
+  const Evidence evidence =
+      gather_evidence(data_of(measurement::read_measurement_set(folder / "set").specimens, settings), settings);
   const auto gain_among = [&](const std::vector<FittedModel>& models, double least_drop) {
-    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop, settings.seed);
+    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop,
+                         settings.procedure.gain, settings.seed);
   };
   const Gain named = gain_among(evidence.singles, drop_needed(evidence)),
              truth = gain_among({true_model(evidence, truth_of(trial, options), trial.hidden)},

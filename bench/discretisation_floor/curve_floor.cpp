@@ -37,7 +37,7 @@ constexpr double kMissing = 1e9;
 std::vector<double> features_of(const tester::Simulation& simulation, int refinement) {
   const auto result = tester::test_toughness(simulation, {.refinement = refinement});
   const diagnosis::FeatureValues features =
-      result ? diagnosis::fracture_features(result->curve) : diagnosis::FeatureValues{};
+      result ? diagnosis::fracture_features(result->curve, {}) : diagnosis::FeatureValues{};
   std::vector<double> values;
   for (const Feature feature : compared()) values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
   return values;

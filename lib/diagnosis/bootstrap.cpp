@@ -124,7 +124,7 @@ NoisyData DataSource::draw(const Eigen::VectorXd& truth, RandomStream& random) c
   return {std::move(values), Whitener::independent(variances(draw_factors(random)).cwiseSqrt())};
 }
 
-DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
+DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data, double imitated) {
   const Projector projector(anchor.fit, data.whitener);
   const Eigen::VectorXd residual = projector.residual(data.values);
   DrawStatistics statistics;
@@ -150,21 +150,20 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     const double length = g.col(k).norm();
-    // A direction that the anchor imitates almost entirely has no contrast with it.
-    const bool visible = length > 0.1 * whitened.col(k).norm();
+    const bool visible = length > imitated * whitened.col(k).norm();
     statistics.contrasts.push_back(visible ? std::abs(g.col(k).dot(residual)) / length : 0.0);
   }
   return statistics;
 }
 
-std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count,
-                                             std::uint64_t seed) {
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, double imitated,
+                                             int count, std::uint64_t seed) {
   std::vector<DrawStatistics> draws(count);
   const DataSource source(observations);
   const Anchor combined = source.combined(anchor);
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "anchor/" + std::to_string(i));
-    draws[i] = anchor_statistics(combined, source.draw(combined.fit.predicted, random));
+    draws[i] = anchor_statistics(combined, source.draw(combined.fit.predicted, random), imitated);
   });
   return draws;
 }

@@ -9,16 +9,9 @@
 
 #include "base/random.hpp"
 #include "diagnosis/contrasts.hpp"
-#include "diagnosis/fit.hpp"
+#include "diagnosis/signatures.hpp"
 
 namespace nacre::diagnosis {
-
-/// Signature of an effect: the change of all predictions by adding it to an anchor model, at several effect sizes.
-struct Signature {
-  std::string effect;
-  Eigen::MatrixXd changes;  ///< rows x sizes
-  bool one_sided = false;   ///< the parameter cannot be negative
-};
 
 /// Statistics of one data set against an anchor model.
 struct DrawStatistics {
@@ -75,12 +68,13 @@ class DataSource {
   std::vector<std::pair<int, int>> dof_;  ///< of each scatter, and how many more are assumed
 };
 
-/// Statistics of data against the anchor, by linear refits.
-DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data);
+/// Statistics of data against the anchor, by linear refits. A direction of which the anchor leaves less than the share
+/// `imitated` has no contrast with it.
+DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data, double imitated);
 
 /// `count` draws of the statistics when the anchor is true; the same for every number of cores.
-std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count,
-                                             std::uint64_t seed);
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, double imitated,
+                                             int count, std::uint64_t seed);
 
 /// Statistics of rival models when `rivals[truth]` is true: chi2 of that rival, and by how much the best other one
 /// beats it.

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace nacre::diagnosis {
 namespace {
 
 using tester::TestKind;
-
-constexpr int kLeastGroups = 8, kLeastCoupons = 4;
-constexpr double kNothing = 1e-9;
 
 }  // namespace
 
@@ -27,19 +22,20 @@ bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
 
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows) {
+  constexpr double kRounding = 1e-9;
   return std::ranges::any_of(rows, [&](Eigen::Index row) {
-    return change[row] > kNothing && (is_identified_by_moduli(effect) || !is_modulus_of_layout(observations, row));
+    return change[row] > kRounding && (is_identified_by_moduli(effect) || !is_modulus_of_layout(observations, row));
   });
 }
 
-std::optional<std::string> why_too_few(std::span<const Observation> groups) {
-  const auto layouts = std::ranges::count_if(groups, [](const Observation& g) { return g.design.layout() != nullptr; });
-  const auto coupons = std::ranges::count(groups, TestKind::tensile, &Observation::test);
-  if (layouts >= kLeastGroups || coupons >= kLeastCoupons) return std::nullopt;
-  return fmt::format(
-      "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
-      "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
-      kLeastGroups, kLeastCoupons, layouts, coupons);
+std::optional<TooFew> too_few(std::span<const Observation> groups, const NoiseRules& rules) {
+  const TooFew few{.layouts = static_cast<int>(std::ranges::count_if(
+                       groups, [](const Observation& g) { return g.design.layout() != nullptr; })),
+                   .coupons = static_cast<int>(std::ranges::count(groups, TestKind::tensile, &Observation::test)),
+                   .layouts_needed = rules.fewest_groups,
+                   .coupons_needed = rules.fewest_coupons};
+  if (few.layouts >= few.layouts_needed || few.coupons >= few.coupons_needed) return std::nullopt;
+  return few;
 }
 
 }  // namespace nacre::diagnosis

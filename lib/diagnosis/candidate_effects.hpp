@@ -21,7 +21,13 @@ bool is_modulus_of_layout(const Observations& observations, Eigen::Index row);
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows);
 
-/// Why these groups are too few for a diagnosis, as a sentence without its full stop; empty where they are enough.
-std::optional<std::string> why_too_few(std::span<const Observation> groups);
+/// Groups that are too few for a diagnosis, and how many it needs of the one or of the other.
+struct TooFew {
+  int layouts = 0, coupons = 0;
+  int layouts_needed = 0, coupons_needed = 0;
+};
+
+/// Nothing where there are enough.
+std::optional<TooFew> too_few(std::span<const Observation> groups, const NoiseRules& rules);
 
 }  // namespace nacre::diagnosis

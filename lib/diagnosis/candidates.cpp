@@ -19,17 +19,18 @@ bool holds(const std::vector<FittedModel>& fits, const std::string& effect) {
 /// The change between base and the joint fit; the signature of a typical size where the effect was not noticed.
 Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed) {
   const Eigen::VectorXd fitted = evidence.singles[k].predicted - evidence.base.fit.predicted;
-  return noticed ? fitted : evidence.base.signatures[k].changes.col(kTypicalSize);
+  return noticed ? fitted : evidence.base.signatures[k].changes.col(evidence.settings.procedure.fit.typical);
 }
 
 /// The smallest parameter of effect k whose signature is visible in these data, beyond what the base imitates.
 std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, const Whitener& whitener) {
-  const auto sizes = Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kSizes)));
+  const Procedure& rules = evidence.settings.procedure;
+  const auto sizes = Eigen::seqN(0, static_cast<Eigen::Index>(rules.fit.sizes.size()));
   const Eigen::MatrixXd projected =
       projected_signatures(evidence.base.fit, evidence.base.signatures[k].changes(Eigen::all, sizes), whitener);
   std::vector<double> signals;
   for (const auto& column : projected.colwise()) signals.push_back(column.norm());
-  const auto strength = smallest_strength(kSizes, signals, kVisibleSignal);
+  const auto strength = smallest_strength(rules.fit.sizes, signals, rules.names.visible_signal);
   if (!strength) return std::nullopt;
   return material::value_at_strength(material::find_effect(evidence.effects[k])->parameters.front(), *strength);
 }
@@ -50,11 +51,11 @@ std::optional<double> smallest_strength(std::span<const double> strengths, const
 }
 
 std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decision& decision) {
+  const Procedure& rules = evidence.settings.procedure;
   const Whitener whitener(evidence.observations.covariance());
   Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
   for (std::size_t k = 0; k < evidence.effects.size(); ++k)
-    changes.col(static_cast<Eigen::Index>(k)) =
-        change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level);
+    changes.col(static_cast<Eigen::Index>(k)) = change_of(evidence, k, evidence.p_family_wise[k] <= rules.levels.name);
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
   std::vector<CandidateEffect> candidates;
   for (const material::Effect& effect : material::effect_library()) {
@@ -62,17 +63,16 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     candidate.name = effect.name;
     const auto found = std::find(evidence.effects.begin(), evidence.effects.end(), effect.name);
     if (found == evidence.effects.end()) {
-      candidate.status = "not_applicable";
       candidates.push_back(candidate);
       continue;
     }
     const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
     const FittedModel& single = evidence.singles[k];
     const SignatureSize typical =
-        signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(kTypicalSize), whitener);
+        signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(rules.fit.typical), whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;
-    candidate.p_family_wise = decision.p_family_wise[k];
-    candidate.p_fit = decision.p_fit[k];
+    candidate.p_family_wise = evidence.p_family_wise[k];
+    candidate.p_fit = evidence.p_fit[k];
     candidate.absorption = typical.absorption();
     candidate.signal_to_noise = projected.col(static_cast<Eigen::Index>(k)).norm();
     candidate.parameter = single.parameters.extensions.at(candidate.name).front();
@@ -87,23 +87,23 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     }
     candidate.smallest_seen = smallest_seen(evidence, k, whitener);
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
-    const bool visible = typical.projected >= kVisibleSignal;
-    const bool noticed = candidate.p_family_wise <= evidence.settings.name_level;
-    candidate.status = holds(decision.possible, candidate.name) ? "in_set"
-                       : visible || noticed                     ? "excluded"
-                                                                : "invisible";
+    const bool visible = typical.projected >= rules.names.visible_signal;
+    const bool noticed = candidate.p_family_wise <= rules.levels.name;
+    candidate.status = holds(decision.possible, candidate.name) ? CandidateStatus::in_set
+                       : visible || noticed                     ? CandidateStatus::excluded
+                                                                : CandidateStatus::invisible;
     candidates.push_back(candidate);
   }
   return candidates;
 }
 
-std::string common_ground(const std::vector<std::vector<std::string>>& possible) {
-  if (possible.empty()) return "";
+CommonGround common_ground(const std::vector<std::vector<std::string>>& possible) {
+  if (possible.empty()) return {};
   // An effect that is in every model is certain, whatever else it comes with.
   for (const std::string& name : possible.front()) {
     if (std::all_of(possible.begin(), possible.end(),
                     [&](const auto& model) { return std::find(model.begin(), model.end(), name) != model.end(); }))
-      return "effect " + name;
+      return {CommonGround::Kind::effect, name};
   }
   std::set<std::string_view> families;
   std::set<material::EffectSide> sides;
@@ -114,9 +114,10 @@ std::string common_ground(const std::vector<std::vector<std::string>>& possible)
       sides.insert(effect->side);
     }
   }
-  if (families.size() == 1) return fmt::format("family {}", *families.begin());
-  if (sides.size() == 1) return *sides.begin() == material::EffectSide::material ? "material side" : "measurement side";
-  return "";
+  if (families.size() == 1) return {CommonGround::Kind::family, std::string(*families.begin())};
+  if (sides.size() > 1) return {};
+  return {*sides.begin() == material::EffectSide::material ? CommonGround::Kind::material_side
+                                                           : CommonGround::Kind::measurement_side};
 }
 
 }  // namespace nacre::diagnosis

@@ -227,13 +227,13 @@ std::vector<ContrastDirection> even_directions(const Observations& observations)
   return directions;
 }
 
-std::vector<ContrastDirection> smooth_law_directions(const Observations& observations,
-                                                     const Eigen::VectorXd& predicted) {
+std::vector<ContrastDirection> smooth_law_directions(const Observations& observations, const Eigen::VectorXd& predicted,
+                                                     std::span<const double> powers) {
   const std::vector<int> rows = rows_of(observations, Feature::log_modulus, tester::TestKind::modulus);
   if (rows.empty()) return {};
   const double largest = predicted(rows).maxCoeff();
   std::vector<ContrastDirection> directions;
-  for (const double power : {0.5, 1.5, 2.0, 3.0}) {
+  for (const double power : powers) {
     Eigen::VectorXd values = Eigen::VectorXd::Zero(observations.size());
     for (const int row : rows) values[row] = std::exp(power * (predicted[row] - largest));
     directions.push_back({fmt::format("the {:g}th power of the stiffness", power),

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,9 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
 /// are off). None for a condition that does not vary.
 std::vector<ContrastDirection> even_directions(const Observations& observations);
 
-/// Smooth laws by which a machine may show moduli: log E' - log E along (E / E_max)^p of the predicted E, for powers
-/// from 1/2 to 3 but 1, which is a compliance to first order. Moduli of layouts and of homogeneous specimens alike.
-std::vector<ContrastDirection> smooth_law_directions(const Observations& observations,
-                                                     const Eigen::VectorXd& predicted);
+/// Smooth laws by which a machine may show moduli: log E' - log E along (E / E_max)^p of the predicted E, for these
+/// powers (1 is a compliance to first order). Moduli of layouts and of homogeneous specimens alike.
+std::vector<ContrastDirection> smooth_law_directions(const Observations& observations, const Eigen::VectorXd& predicted,
+                                                     std::span<const double> powers);
 
 }  // namespace nacre::diagnosis

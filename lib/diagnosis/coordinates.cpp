@@ -1,8 +1,5 @@
 #include "diagnosis/coordinates.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,34 +7,26 @@
 #include "sysid/eta.hpp"
 
 namespace nacre::diagnosis {
-namespace {
 
-/// Of a prior about the middle, in widths of the widened range.
-constexpr double kWidePrior = 0.5;
-/// eta is searched within this distance of the centre, in log units, with this standard deviation of the prior: the
-/// emulator is trained no farther.
-constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
-
-}  // namespace
-
-Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic) {
+Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic, const ConstantRules& rules) {
+  const double half_width = 0.5 * rules.widening;
   if (logarithmic) {
-    const double half = 1.5 * std::log(range.maximum / range.minimum),
+    const double half = half_width * std::log(range.maximum / range.minimum),
                  middle = 0.5 * std::log(range.maximum * range.minimum);
     return {middle - half, middle + half};
   }
-  const double half = 1.5 * (range.maximum - range.minimum), middle = 0.5 * (range.maximum + range.minimum);
-  return {std::max(0.02, middle - half), std::min(0.495, middle + half)};
+  const double half = half_width * (range.maximum - range.minimum), middle = 0.5 * (range.maximum + range.minimum);
+  return {std::max(rules.least_ratio, middle - half), std::min(rules.most_ratio, middle + half)};
 }
 
 CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects)
-    : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
+    : centre_(basis.centre), rules_(basis.rules), effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
       const bool logarithmic = i < 3;
-      const Bounds b = searched_bounds(basis.ranges.modulus(target)[i], logarithmic);
-      base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
+      const Bounds b = searched_bounds(basis.ranges.modulus(target)[i], logarithmic, rules_);
+      base_.push_back({block, i, b.low, b.high, logarithmic, rules_.prior_sd});
     }
   };
   if (basis.modulus) add_moduli(Block::modulus, material::FitTarget::microstructures);
@@ -45,8 +34,8 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
     const material::ToughnessVector eta = to_vector(centre_.toughness);
     for (const std::size_t i : sysid::kSearchedEta) {
       const double middle = std::log(eta[i]);
-      base_.push_back({Block::toughness, static_cast<int>(i), middle - kEtaReach, middle + kEtaReach, true,
-                       kEtaSd / (2.0 * kEtaReach)});
+      base_.push_back({Block::toughness, static_cast<int>(i), middle - rules_.eta_reach, middle + rules_.eta_reach,
+                       true, rules_.eta_sd / (2.0 * rules_.eta_reach)});
     }
   }
   // Poisson's ratios too: they bend the curves of coupons pulled far.
@@ -94,23 +83,14 @@ double CoordinateMap::value(int i, double u) const {
 }
 
 std::vector<ModulusAtBound> CoordinateMap::moduli_at_bounds(const Eigen::VectorXd& u) const {
-  constexpr double kEnd = 1e-3;
   constexpr int kModuli = 3;
   std::vector<ModulusAtBound> found;
   for (int i = 0; i < base_count(); ++i) {
     const BaseCoordinate& c = base_[i];
-    if (c.block == Block::toughness || c.index >= kModuli || std::min(u[i], 1.0 - u[i]) > kEnd) continue;
+    if (c.block == Block::toughness || c.index >= kModuli || std::min(u[i], 1.0 - u[i]) > rules_.at_bound) continue;
     found.push_back({c.index, value(i, u[i]), c.block == Block::coupon});
   }
   return found;
-}
-
-std::string in_words(const std::vector<ModulusAtBound>& moduli) {
-  std::vector<std::string> words;
-  for (const ModulusAtBound& each : moduli)
-    words.push_back(fmt::format("{} = {:.3g} Pa{}", material::modulus_parameter_names()[each.material], each.modulus_pa,
-                                each.of_coupons ? " of coupons" : ""));
-  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {
@@ -155,7 +135,7 @@ Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& paramet
     const auto index = static_cast<std::size_t>(c.index);
     const double plain_value = c.block == Block::toughness ? eta[index] : theta[index];
     const double x = c.logarithmic ? std::log(plain_value) : plain_value;
-    u[i] = std::clamp((x - c.low) / (c.high - c.low), 0.02, 0.98);
+    u[i] = std::clamp((x - c.low) / (c.high - c.low), rules_.start_margin, 1.0 - rules_.start_margin);
   }
   return u;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/material_constants.hpp"
+#include "diagnosis/procedure.hpp"
 #include "material/extensions.hpp"
 #include "material/ranges.hpp"
 
@@ -22,6 +24,7 @@ struct Basis {
   material::ParameterSet centre =
       material::default_parameters();  ///< centre of the search for eta, and values of constants that are not searched
   material::ParameterRanges ranges = material::default_ranges();  ///< of theta and the bulk constants
+  ConstantRules rules = {};
 };
 
 /// One parameter of one effect.
@@ -30,21 +33,12 @@ struct EffectCoordinate {
   int parameter = 0;
 };
 
-/// Bounds of a search: the range widened three-fold about its middle, of the logarithm where `logarithmic` (moduli);
+/// Bounds of a search: the range widened about its middle, of the logarithm where `logarithmic` (moduli);
 /// ratios are kept physical.
 struct Bounds {
   double low = 0.0, high = 0.0;
 };
-Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic);
-
-/// A Young's modulus of a fit that is at its bound: no prior would leave it there, the ranges are those of other inks.
-struct ModulusAtBound {
-  int material = 0;  ///< soft, rigid, interface
-  double modulus_pa = 0.0;
-  bool of_coupons = false;  ///< in homogeneous specimens, else in layouts
-};
-/// "e_vw_pa = 1.39e+09 Pa, e_tb_pa = 3e+05 Pa of coupons"
-std::string in_words(const std::vector<ModulusAtBound>& moduli);
+Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic, const ConstantRules& rules);
 
 /// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a
 /// factor e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.
@@ -88,6 +82,7 @@ class CoordinateMap {
   material::ParameterSet with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const;
 
   material::ParameterSet centre_;
+  ConstantRules rules_;
   std::vector<BaseCoordinate> base_;
   std::vector<std::string> effects_;
   std::vector<EffectCoordinate> extension_;

@@ -11,27 +11,25 @@
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/other_materials.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
-#include "diagnosis/summary.hpp"
 #include "diagnosis/verdict.hpp"
+#include "diagnosis/words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kNextExperiments = 4;
-
 /// The specimens of the rows of a part.
-std::string specimens_in_words(const Observations& observations, std::size_t part) {
+RowsOf rows_of(const Observations& observations, std::size_t part) {
   const std::vector<std::size_t> parts = parts_of_rows(observations);
   const auto found = std::ranges::find(parts, part);
-  if (found == parts.end()) return "";
+  if (found == parts.end()) return {};
   const DataRow& row = observations.rows[found - parts.begin()];
-  if (row.kind == RowKind::constant) return "constants of layouts against those of coupons";
-  if (row.test == tester::TestKind::modulus) return "moduli";
-  if (row.test == tester::TestKind::toughness) return "notched specimens";
-  if (row.group < 0) return "coupons";
-  return observations.groups[row.group].material() + " coupons";
+  if (row.kind == RowKind::constant) return {RowsOf::Kind::constants};
+  if (row.test == tester::TestKind::modulus) return {RowsOf::Kind::moduli};
+  if (row.test == tester::TestKind::toughness) return {RowsOf::Kind::notched};
+  return {RowsOf::Kind::coupons, row.group < 0 ? "" : observations.groups[row.group].material()};
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const FittedModel& base,
@@ -67,14 +65,14 @@ std::vector<ResidualRow> residual_rows(const Observations& observations, const F
 }
 
 /// Curves at both fits: fracture tests from the run nearest to the fit, coupons computed.
-std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations,
-                                   const FittedModel& base, const FittedModel& extended) {
+std::vector<GroupCurves> curves_of(const Data& data, const FittedModel& base, const FittedModel& extended) {
+  const Observations& observations = data.observations;
   std::vector<GroupCurves> curves;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
     if (group.test == tester::TestKind::modulus || group.curve.empty()) continue;
-    curves.push_back({group.design.name(), group.test, group.conditions, group.curve, workbench.curve_at(g, base),
-                      workbench.curve_at(static_cast<int>(g), extended)});
+    curves.push_back({group.design.name(), group.test, group.conditions, group.curve,
+                      curve_at(data, static_cast<int>(g), base), curve_at(data, static_cast<int>(g), extended)});
   }
   return curves;
 }
@@ -122,11 +120,15 @@ double shared_discretisation_sd(const Observations& observations) {
 /// Verdict, noise of the data, base fit and candidates.
 void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& decision) {
   const Observations& observations = evidence.observations;
+  diagnosis.contrast_level = evidence.settings.procedure.levels.contrast;
+  diagnosis.assumed_sd = evidence.settings.procedure.noise.assumed_sd;
   diagnosis.verdict = decision.verdict;
-  diagnosis.p_misfit = decision.p_misfit;
+  diagnosis.finding = decision.finding;
+  diagnosis.untold = decision.untold;
+  diagnosis.p_misfit = evidence.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
-  diagnosis.loudest = specimens_in_words(observations, decision.loudest_part);
+  diagnosis.loudest = rows_of(observations, decision.loudest_part);
   const auto [feature, test] = shown_scatter(observations);
   diagnosis.replicate_sd = observations.replicate_sd(feature, test);
   diagnosis.noise_known = observations.replicate_dof(test) > 0;
@@ -139,18 +141,36 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
 }
 
+/// Of the data and their noise.
+Cautions cautions_of(const Observations& observations, const Diagnosis& diagnosis, const DiagnosisSettings& settings) {
+  Cautions cautions;
+  cautions.other_materials = other_materials(observations, settings.ranges, settings.procedure.constants);
+  cautions.nothing_replicated = true;
+  for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile}) {
+    if (!observations.has(test)) continue;
+    if (observations.replicate_dof(test) > 0)
+      cautions.nothing_replicated = false;
+    else
+      cautions.unreplicated.push_back(test);
+  }
+  cautions.replicates_are_equal =
+      diagnosis.noise_known && diagnosis.replicate_sd < settings.procedure.cautions.equal_replicates;
+  cautions.disconnected_batches = observations.disconnected_batches;
+  return cautions;
+}
+
 }  // namespace
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
-  if (settings.bootstraps * settings.name_level < 2.0) {
+  if (settings.bootstraps * settings.procedure.levels.name < 2.0) {
     throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}",
-                             settings.bootstraps, settings.name_level, std::ceil(2.0 / settings.name_level));
+                             settings.bootstraps, settings.procedure.levels.name,
+                             std::ceil(2.0 / settings.procedure.levels.name));
   }
   const auto report = [&](double share, std::string_view phase) {
     if (settings.progress) settings.progress(share, phase);
   };
-  Workbench workbench(specimens, settings);
-  Evidence evidence = gather_evidence(workbench, settings);
+  const Evidence evidence = gather_evidence(data_of(specimens, settings), settings);
   const Observations& observations = evidence.observations;
   const Decision decision = decide(evidence);
 
@@ -168,29 +188,33 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   }
   diagnosis.extended_fit = constants_of(evidence, extended);
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
-  diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
+  diagnosis.curves = curves_of(evidence, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
     std::vector<FittedModel> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that was fitted to all the data.
     if (decided.effects.size() > 1) models.push_back(decided);
-    const Gain gain =
-        held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence), settings.seed);
+    const Gain gain = held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence),
+                                    settings.procedure.gain, settings.seed);
     // The gain of the nearest effect where none is named is reported as a partial gain.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
   report(0.95, "choosing the next experiments");
   const CoordinateMap map = evidence.model.map(decided.effects);
-  const std::vector<ModulusAtBound> at_bounds = map.moduli_at_bounds(decided.u);
-  diagnosis.next_experiments = next_experiments(evidence, models_to_separate(evidence, decision), kNextExperiments);
-  if (!decision.untold.empty()) diagnosis.next_experiments = specimens_of_materials(observations, decision.untold);
-  if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
+  diagnosis.next_experiments =
+      next_experiments(evidence, models_to_separate(evidence, decision), settings.procedure.tests);
+  if (!decision.untold.empty())
+    diagnosis.next_experiments =
+        specimens_of_materials(observations, decision.untold, settings.procedure.tests.replicates);
+  if (evidence.fractures) diagnosis.simulations = evidence.fractures->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "discretisation error of three specimens");
   if (settings.check_discretisation)
-    diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity);
-  diagnosis.summary =
-      summary_with_cautions(diagnosis, decision, observations, at_bounds,
-                            other_materials(observations, settings.ranges), groups_out_of_line(specimens));
+    diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity,
+                                            settings.procedure.cautions.numerical);
+  diagnosis.cautions = cautions_of(observations, diagnosis, settings);
+  diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
+  diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
+  diagnosis.summary = summary_of(diagnosis);
   report(1.0, "done");
   return diagnosis;
 }

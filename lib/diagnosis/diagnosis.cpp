@@ -1,5 +1,7 @@
 #include "diagnosis/diagnosis.hpp"
 
+#include "diagnosis/words.hpp"
+
 namespace nacre::diagnosis {
 
 std::string_view to_string(Verdict verdict) {
@@ -16,15 +18,28 @@ std::string_view to_string(Verdict verdict) {
   return "unexplained";
 }
 
+std::string_view to_string(CandidateStatus status) {
+  switch (status) {
+    case CandidateStatus::in_set:
+      return "in_set";
+    case CandidateStatus::excluded:
+      return "excluded";
+    case CandidateStatus::invisible:
+      return "invisible";
+    case CandidateStatus::not_applicable:
+      break;
+  }
+  return "not_applicable";
+}
+
 bool lines_up(const Diagnosis& diagnosis) {
-  constexpr double kLevel = 0.05;
-  return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= kLevel;
+  return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= diagnosis.contrast_level;
 }
 
 Diagnosis undecided(const std::string& why) {
   Diagnosis diagnosis;
   diagnosis.verdict = Verdict::ambiguous;
-  diagnosis.summary = "These data cannot tell yet: " + why + ".";
+  diagnosis.summary = undecided_in_words(why);
   return diagnosis;
 }
 

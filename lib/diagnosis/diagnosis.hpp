@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "diagnosis/features.hpp"
-#include "diagnosis/fracture_discretisation.hpp"
-#include "diagnosis/modulus_floor.hpp"
+#include "diagnosis/material_constants.hpp"
+#include "diagnosis/procedure.hpp"
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "measurement/specimen_record.hpp"
@@ -26,6 +26,30 @@ enum class Verdict {
 };
 std::string_view to_string(Verdict verdict);
 
+/// The step that decided a verdict.
+enum class Reason {
+  residuals_are_noise,  ///< base_sufficient
+  no_effect_helps,      ///< unexplained: a misfit, and no effect improves the fit beyond chance
+  residuals_stay,       ///< unexplained: larger than noise with one and two effects
+  at_bound,             ///< unexplained: the nearest effect, whose residuals are noise, is at its bound
+  weak_signal,          ///< unexplained: too little of the nearest effect's signature is its own
+  contrast,             ///< unexplained: a contrast explains more than the nearest effect
+  condition,            ///< unexplained: one factor on all specimens of a condition does as well
+  discrepancy,          ///< unexplained: data of a discrepancy model favour an effect by as much too often
+  one_effect,           ///< named or ambiguous: one explains the data
+  two_effects,          ///< the same: none alone, two together
+  other_material,       ///< ambiguous: the base fits with constants of another material
+};
+
+/// Why it was decided so.
+struct Finding {
+  Reason reason = Reason::residuals_are_noise;
+  std::vector<std::string> nearest = {};  ///< from at_bound to discrepancy: the effects that come nearest
+  double value = 0.0;      ///< at_bound: size in the effect's unit; weak_signal: SNR; discrepancy: chance
+  double needed = 0.0;     ///< weak_signal, discrepancy: of a name
+  std::string along = {};  ///< contrast, condition: which
+};
+
 /// A fitted number with its 90 % interval, in the unit of the effect.
 struct FittedNumber {
   double value = 0.0, interval_low = 0.0, interval_high = 0.0;
@@ -41,10 +65,18 @@ struct NamedEffect {
   std::vector<FittedNumber> further = {};  ///< further parameters of the effect, in the order of material::Effect
 };
 
+enum class CandidateStatus {
+  in_set,          ///< explains the data
+  excluded,        ///< would be seen, or was, and does not explain them
+  invisible,       ///< these specimens would not show it
+  not_applicable,  ///< acts on none of their tests
+};
+std::string_view to_string(CandidateStatus status);
+
 /// One of the known effects, and how it fared.
 struct CandidateEffect {
   std::string name;
-  std::string status;          ///< in_set, excluded, invisible, not_applicable
+  CandidateStatus status = CandidateStatus::not_applicable;
   double statistic = 0.0;      ///< drop of the weighted sum of squares when the effect is fitted jointly with the base
   double p_family_wise = 1.0;  ///< chance that the best of all candidates drops it as much when the base is true
   double absorption = 0.0;     ///< share of the effect's signature that the base parameters imitate, 0..1
@@ -136,10 +168,12 @@ struct GroupCurves {
   tester::Curve measured, base, extended;
 };
 
+/// What was refined.
+enum class DiscretisationChange { half_time_step, half_rate, doubled_recording, half_element };
+
 /// Change of one feature by one numerical choice: the largest of three specimens.
 struct SanityCheck {
-  std::string
-      changed;  ///< "half the time step", "half the simulated rate", "doubled recording", "half the element size"
+  DiscretisationChange changed = DiscretisationChange::half_element;
   Feature feature = Feature::log_modulus;
   double largest = 0.0;    ///< largest change over the specimens, in the feature's unit
   double allowed = 0.0;    ///< standard error of a group
@@ -155,19 +189,46 @@ struct FittedConstants {
   bool operator==(const FittedConstants&) const = default;
 };
 
+/// The most specific property that several models share.
+struct CommonGround {
+  enum class Kind { nothing, effect, family, material_side, measurement_side };
+  Kind kind = Kind::nothing;
+  std::string name = {};  ///< of the effect or family
+};
+
+/// Rows that are judged together.
+struct RowsOf {
+  enum class Kind { none, constants, moduli, notched, coupons };
+  Kind kind = Kind::none;
+  std::string material = {};  ///< of coupons; empty: all of them
+  bool operator==(const RowsOf&) const = default;
+};
+
+/// What limits the worth of a verdict.
+struct Cautions {
+  std::vector<OtherMaterial> other_materials;  ///< that are none of the inks by their own specimens
+  std::vector<ModulusAtBound> at_bounds;       ///< of the model that was decided for
+  std::vector<std::string> out_of_line;        ///< groups whose replicates do not agree: "modulus of LAYOUT"
+  std::vector<tester::TestKind> unreplicated;  ///< tests without replicates: a scatter is assumed
+  bool nothing_replicated = false;             ///< no test has any
+  bool replicates_are_equal = false;           ///< as no printed specimens are
+  int disconnected_batches = 0;                ///< sets of batches without a common design; 0: no batches
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::base_sufficient;
-  std::string summary;               ///< for a person, a few sentences
+  Finding finding;
+  std::string summary;               ///< for a person, a few sentences: summary_of(), and what callers add
   std::vector<NamedEffect> effects;  ///< one or two when named, else empty
   std::vector<std::vector<std::string>>
-      possible;               ///< models that stay possible, the best first: names of their effects
-  std::string common_ground;  ///< shared by all possible models: "effect interface_anisotropy", "family geometry",
-                              ///< "measurement side"; empty: nothing
+      possible;                             ///< models that stay possible, the best first: names of their effects
+  CommonGround common_ground;               ///< of all possible models
+  std::vector<ModulusAtBound> untold;       ///< with Reason::other_material: where specimens of these would tell
   std::vector<CandidateEffect> candidates;  ///< of all known effects, in the order of material::effect_library()
   std::vector<Contrast> contrasts;          ///< strongest first
-  std::string loudest;               ///< specimens whose residuals are largest against their noise: "soft coupons"
-  std::optional<Gain> gain;          ///< of the named model
-  std::optional<Gain> partial_gain;  ///< of the effect that comes nearest, when unexplained
+  RowsOf loudest;                           ///< whose residuals are largest against their noise
+  std::optional<Gain> gain;                 ///< of the named model
+  std::optional<Gain> partial_gain;         ///< of the effect that comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
   double p_misfit = 1.0;           ///< omnibus: chance of a base misfit as large
   double p_outside = 1.0;          ///< chance that an unmodelled cause would give a name as surely; 1 when no name was
@@ -183,7 +244,10 @@ struct Diagnosis {
   std::vector<SanityCheck> sanity;       ///< sensitivity to the discretisation
   std::vector<std::string> descriptors;  ///< names of the quantities that residuals are shown against
   std::vector<GroupCurves> curves;       ///< of fracture tests and coupons
-  int simulations = 0;                   ///< of fracture tests, really done
+  Cautions cautions;
+  double contrast_level = Levels{}.contrast;    ///< chance below which residuals line up with a contrast
+  double assumed_sd = NoiseRules{}.assumed_sd;  ///< scatter where there are no replicates
+  int simulations = 0;                          ///< of fracture tests, really done
   std::string procedure;  ///< hash of effects, features, contrasts, thresholds, discretisation floor and fidelity: two
                           ///< diagnoses with the same one followed the same procedure
 };

@@ -1,21 +1,15 @@
 #include "diagnosis/discrepancy_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "base/parallel.hpp"
 
 namespace nacre::diagnosis {
 namespace {
-
-/// Amplitudes that are tried, in standard deviations of a row; 0 is the base model.
-constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7,  1.0,  1.4,  2.0,
-                                    2.8, 4.0,  5.6,  8.0, 11.0, 16.0, 23.0, 32.0};
-/// Enough to resolve 3 %.
-constexpr int kMostDraws = 1000;
 
 /// Mean of `matrix`'s diagonal over the rows of each kind (feature, test, probe) is brought to `noise`'s.
 Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix, const Observations& observations) {
@@ -61,10 +55,10 @@ struct Amplitude {
 
 /// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have several
 /// maxima.
-Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
+Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit, std::span<const double> amplitudes) {
   Amplitude best;
   double reference = 0.0;
-  for (const double amplitude : kAmplitudes) {
+  for (const double amplitude : amplitudes) {
     const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
     const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
     if (amplitude == 0.0) reference = determinant;
@@ -103,7 +97,8 @@ double best_chi2(const Marginal& data, const std::vector<Signature>& signatures,
 }  // namespace
 
 Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
-                                       const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise) {
+                                       const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise,
+                                       double along_contrasts) {
   Eigen::MatrixXd along = Eigen::MatrixXd::Zero(observations.size(), observations.size()), own = along;
   for (const ContrastDirection& direction : directions) along += direction.values * direction.values.transpose();
   for (int i = 0; i < observations.size(); ++i) {
@@ -114,23 +109,24 @@ Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
         own(i, j) = 1.0;
     }
   }
-  return 0.5 * in_units_of(noise, std::move(along), observations) +
-         0.5 * in_units_of(noise, std::move(own), observations);
+  return along_contrasts * in_units_of(noise, std::move(along), observations) +
+         (1.0 - along_contrasts) * in_units_of(noise, std::move(own), observations);
 }
 
 DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Anchor& by_rows_anchor, double chi2,
                                            int count) {
   const Observations& observations = evidence.observations;
+  const NameRules& rules = evidence.settings.procedure.names;
   const DataSource source(observations);
   const Anchor anchor = source.combined(by_rows_anchor);
-  const Eigen::MatrixXd by_rows =
-      source.combined(discrepancy_covariance(observations, by_rows_anchor.directions, observations.covariance()));
+  const Eigen::MatrixXd by_rows = source.combined(discrepancy_covariance(
+      observations, by_rows_anchor.directions, observations.covariance(), rules.along_contrasts));
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
   const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)),
                        Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
-  const Amplitude own = most_probable(marginal(anchor.fit, data), unit);
+  const Amplitude own = most_probable(marginal(anchor.fit, data), unit, rules.amplitudes);
   DiscrepancyTest discrepancy{own.value, own.deviance - chi2, 1.0};
-  const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
+  const int draws = std::min(rules.discrepancy_draws, evidence.settings.bootstraps);
   std::vector<double> leads(draws);
   const Eigen::MatrixXd spread =
       own.value * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) *
@@ -142,7 +138,7 @@ DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Ancho
     Eigen::VectorXd cause(observations.size());
     for (double& value : cause) value = random.normal();
     const Marginal drawn = marginal(anchor.fit, source.draw(anchor.fit.predicted + spread * cause, random));
-    leads[i] = most_probable(drawn, unit).deviance - best_chi2(drawn, anchor.signatures, count);
+    leads[i] = most_probable(drawn, unit, rules.amplitudes).deviance - best_chi2(drawn, anchor.signatures, count);
   });
   discrepancy.p = exceedance(leads, discrepancy.lead);
   return discrepancy;

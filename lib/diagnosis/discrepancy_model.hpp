@@ -1,18 +1,14 @@
 #pragma once
 // Discrepancy model: a Gaussian process that knows no physics, as a stand-in for unmodelled causes.
 //
-// Residuals ~ N(0, noise + a^2 K), K = 1/2 sum_d d d' over the contrast directions (rigid fraction, run lengths,
-// corners, rate, order, ...) + 1/2 same design, scaled to the noise of each kind of row; the amplitude a is the most
-// probable one. An effect is named when data drawn from this model would hardly ever let an effect lead it by as much
-// as was observed.
+// Residuals ~ N(0, noise + a^2 K), K = s sum_d d d' over the contrast directions (rigid fraction, run lengths, corners,
+// rate, order, ...) + (1 - s) same design, scaled to the noise of each kind of row (NameRules::along_contrasts); the
+// amplitude a is the most probable one. An effect is named when data drawn from this model would hardly ever let an
+// effect lead it by as much as was observed.
 
 #include "diagnosis/evidence.hpp"
 
 namespace nacre::diagnosis {
-
-/// The share of such data sets that may give a name (the aim of the blind trials: a wrong name for at most 3 % of the
-/// unmodelled causes).
-inline constexpr double kDiscrepancyLevel = 0.03;
 
 struct DiscrepancyTest {
   double amplitude = 0.0;  ///< root mean square of the discrepancy, in standard deviations of a row
@@ -23,7 +19,8 @@ struct DiscrepancyTest {
 
 /// Covariance of a discrepancy of amplitude 1: mean diagonal 1 per feature in units of the rows' variances.
 Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
-                                       const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise);
+                                       const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise,
+                                       double along_contrasts);
 
 /// Tests the best model of `count` (1 or 2) effects more than `anchor` has against a discrepancy beside the anchor;
 /// `chi2` is that of the fitted effects. Cost: a Cholesky factorisation of the rows per amplitude and draw.

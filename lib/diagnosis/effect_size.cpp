@@ -5,18 +5,11 @@
 #include <limits>
 #include <map>
 
+#include "diagnosis/joint_fits.hpp"
+#include "diagnosis/shared_discretisation.hpp"
+
 namespace nacre::diagnosis {
 namespace {
-
-/// Sizes that are tried first, as shares of the named one.
-constexpr double kFirstShares[] = {1.2, 1.45, 0.83, 0.67};
-/// In profile deviance: sizes that are so much less likely than the best are of no interest; between sizes that differ
-/// by more than a step a further one is tried, in so many rounds. A fit that is worse by so much is caught in a local
-/// minimum.
-constexpr double kOfInterest = 8.0, kLargestStep = 2.5, kCaught = 30.0;
-constexpr int kRounds = 4;
-/// Factor from the last size that is of interest to the next.
-constexpr double kBeyond = 1.6;
 
 /// The profile: the model refitted at each size, by coordinate of the size.
 using SizeProfile = std::map<double, ProfileFit>;
@@ -30,7 +23,7 @@ double least_deviance(const SizeProfile& profile) {
 /// Fits at one more size of coordinate i, from these constants; the better of this and of any earlier fit there.
 void fit_at(const Evidence& evidence, SizeProfile& profile, int i, double size, Eigen::VectorXd start) {
   start[i] = size;
-  const double hopeless = least_deviance(profile) + 2.0 * kCaught;
+  const double hopeless = least_deviance(profile) + 2.0 * evidence.settings.procedure.sizes.caught;
   ProfileFit at = fit_with_own_discretisation(evidence, profile.begin()->second.fit.effects, start, {i}, hopeless);
   const auto known = profile.find(size);
   if (known == profile.end() || at.deviance < known->second.deviance) profile[size] = std::move(at);
@@ -46,7 +39,7 @@ void try_size(const Evidence& evidence, SizeProfile& profile, int i, double size
   const double least = least_deviance(profile);
   const ProfileFit *below = nullptr, *above = nullptr;
   for (const auto& [known, at] : profile) {
-    if (at.deviance - least >= kCaught) continue;
+    if (at.deviance - least >= evidence.settings.procedure.sizes.caught) continue;
     if (known < size) below = &at;
     if (known > size && !above) above = &at;
   }
@@ -57,30 +50,33 @@ void try_size(const Evidence& evidence, SizeProfile& profile, int i, double size
 }
 
 /// Middles between neighbours of interest that differ by more than a step, and sizes beyond ends that are of interest.
-std::vector<double> missing_sizes(const SizeProfile& profile) {
+std::vector<double> missing_sizes(const SizeProfile& profile, const SizeRules& rules) {
   const double least = least_deviance(profile);
   const auto& [first, first_at] = *profile.begin();
   const auto& [last, last_at] = *profile.rbegin();
   std::vector<double> missing;
-  if (first_at.deviance - least < kOfInterest) missing.push_back(first > 0.0 ? first / kBeyond : kBeyond * first);
-  if (last_at.deviance - least < kOfInterest) missing.push_back(last > 0.0 ? kBeyond * last : last / kBeyond);
+  if (first_at.deviance - least < rules.of_interest)
+    missing.push_back(first > 0.0 ? first / rules.beyond : rules.beyond * first);
+  if (last_at.deviance - least < rules.of_interest)
+    missing.push_back(last > 0.0 ? rules.beyond * last : last / rules.beyond);
   for (auto a = profile.begin(), b = std::next(a); b != profile.end(); ++a, ++b) {
     const auto [low, high] = std::minmax(a->second.deviance, b->second.deviance);
-    if (low - least < kOfInterest && high - low > kLargestStep) missing.push_back(0.5 * (a->first + b->first));
+    if (low - least < rules.of_interest && high - low > rules.step) missing.push_back(0.5 * (a->first + b->first));
   }
   return missing;
 }
 
 SizeProfile profile_of(const Evidence& evidence, const FittedModel& named, int i) {
+  const Procedure& rules = evidence.settings.procedure;
   SizeProfile profile;
   profile[named.u[i]] = fit_with_own_discretisation(evidence, named.effects, named.u, {i});
   // Restarted far from the fitted size too, from the initial guess of the base: other constants may hide another
   // optimum.
-  for (const double size : kSizes)
-    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), at_first_constants(evidence, named.u));
-  for (const double share : kFirstShares) try_size(evidence, profile, i, share * named.u[i]);
-  for (int round = 0; round < kRounds; ++round)
-    for (const double size : missing_sizes(profile)) try_size(evidence, profile, i, size);
+  for (const double size : rules.fit.sizes)
+    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), with_constants_at_centre(evidence.model, named.u));
+  for (const double share : rules.sizes.shares) try_size(evidence, profile, i, share * named.u[i]);
+  for (int round = 0; round < rules.sizes.rounds; ++round)
+    for (const double size : missing_sizes(profile, rules.sizes)) try_size(evidence, profile, i, size);
   return profile;
 }
 

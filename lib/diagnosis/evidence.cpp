@@ -1,126 +1,23 @@
 #include "diagnosis/evidence.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/joint_fits.hpp"
+#include "diagnosis/misfit.hpp"
+#include "diagnosis/pairs.hpp"
+#include "diagnosis/shared_discretisation.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// How often the shared directions of the discretisation error are computed anew at models fitted with them.
-constexpr int kMeshPasses = 2;
-/// How often fracture tests are simulated at the fits and learnt from, and the largest error of the emulator before
-/// that is repeated.
-constexpr int kRefinements = 3;
-constexpr double kWellKnown = 1.5;
-/// Effects whose fits are simulated: those that come near the best.
-constexpr std::size_t kRefinedEffects = 4;
-
-/// These sizes of an effect, and of a two-sided one their negatives, in the order of a signature's changes.
-std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) {
-  std::vector<double> all(sizes.begin(), sizes.end());
-  if (!one_sided)
-    for (const double size : sizes) all.push_back(-size);
-  return all;
-}
-
-/// Shares of the whole work between which a step lies.
-struct Stretch {
-  double begin = 0.0, end = 1.0;
-};
-
-/// The base model with signatures and contrasts on top of it.
-void put_base(Evidence& evidence, FittedModel base) {
-  evidence.base.fit = std::move(base);
-  evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
-  evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
-}
-
-/// Base and one effect, from the best initial guess.
-FittedModel fit_single(const Evidence& evidence, std::size_t effect) {
-  return fit_model(
-      evidence.model, evidence.observations, {evidence.effects[effect]},
-      best_initial_guess(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
-}
-
-/// First constants, with the effect size of the smallest chi squared there.
-Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedModel& fit) {
-  const Eigen::VectorXd first = at_first_constants(evidence, fit.u);
-  const Eigen::Index own = evidence.base.fit.u.size();
-  const CoordinateMap map = evidence.model.map(fit.effects);
-  const Whitener whitener(evidence.observations.covariance());
-  std::vector<Eigen::VectorXd> starts;
-  for (const double size : {0.3, 0.6, 0.9}) {
-    starts.push_back(first);
-    starts.back()[own] = size;
-  }
-  const Eigen::MatrixXd predicted = evidence.model.predict(map, starts);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const double chi2 = whitener.chi2(evidence.observations.values - predicted.col(static_cast<Eigen::Index>(i)));
-    if (chi2 < least) least = chi2, best = i;
-  }
-  return starts[best];
-}
-
-/// The base is restarted from where the best extended fit ended: a gain must not be better optimisation. Where that
-/// helps it, every effect is restarted from there.
-void restart_base(Evidence& evidence) {
-  constexpr double kBetter = 0.1;
-  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                     [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
-  if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - 1.0) return;
-  FittedModel again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
-  if (again.chi2 >= evidence.base.fit.chi2 - kBetter) return;
-  put_base(evidence, std::move(again));
-  for (std::size_t k = 0; k < evidence.singles.size(); ++k)
-    evidence.singles[k] = better_of(std::move(evidence.singles[k]), fit_single(evidence, k));
-}
-
-/// An effect of larger chi squared than the base is caught in a local minimum, since at size 0 it is the base:
-/// restarted there.
-void restart_at_the_base(Evidence& evidence) {
-  constexpr double kMore = 0.02;
-  for (FittedModel& single : evidence.singles) {
-    if (single.chi2 <= evidence.base.fit.chi2 + kMore) continue;
-    const CoordinateMap map = evidence.model.map(single.effects);
-    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects,
-                                                    widened_start(evidence.base.fit, map)));
-  }
-}
-
-/// Base and every single effect, fitted to the observations of the evidence.
-void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
-  const auto report = [&](double share, std::string_view phase) {
-    if (evidence.settings.progress)
-      evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
-  };
-  report(0.0, "fitting the base model");
-  FittedModel base = fit_model(evidence.model, evidence.observations, {}, start);
-  report(0.3, "signatures of the effects");
-  put_base(evidence, std::move(base));
-  std::vector<FittedModel> singles;
-  for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
-    report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
-           "fitting base and " + evidence.effects[k]);
-    // An earlier fit of some size is the initial guess under another covariance or emulator.
-    const bool found =
-        k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
-    singles.push_back(
-        found ? fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, evidence.singles[k].u)
-              : fit_single(evidence, k));
-  }
-  evidence.singles = std::move(singles);
-  for (FittedModel& single : evidence.singles) single = restarted(evidence, std::move(single));
-  restart_base(evidence);
-  restart_at_the_base(evidence);
+void report(const DiagnosisSettings& settings, double share, std::string_view phase) {
+  if (settings.progress) settings.progress(share, phase);
 }
 
 /// Models whose change with finer elements is shared among moduli: the base, and every effect of the material that acts
 /// on them.
-void share_discretisation(Evidence& evidence) {
+Evidence with_shared_discretisation(Evidence evidence) {
   evidence.discretisation = {{{}, evidence.base.fit.u}};
   for (const FittedModel& single : evidence.singles)
     if (material::find_effect(single.effects.front())->side == material::EffectSide::material)
@@ -136,152 +33,109 @@ void share_discretisation(Evidence& evidence) {
   evidence.discretisation = std::move(acting);
   evidence.observations.discretisation_shared = all(Eigen::all, kept);
   evidence.observations.discretisation_sd = evidence.settings.floor.mesh_remainder_sd;
+  return evidence;
 }
 
-/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator
-/// predicts them.
-void refine_fractures(Evidence& evidence, Workbench& workbench) {
-  if (!workbench.has_fractures()) return;
-  for (int pass = 0; pass < kRefinements; ++pass) {
+/// Fracture tests simulated at the base fit and at those of the effects that come nearest, until the emulator predicts
+/// them.
+Evidence with_refined_fractures(Evidence evidence) {
+  if (!evidence.fractures) return evidence;
+  const EmulatorRules& rules = evidence.settings.procedure.emulator;
+  for (int pass = 0; pass < rules.refinements; ++pass) {
     std::vector<const FittedModel*> order;
     for (const FittedModel& single : evidence.singles) order.push_back(&single);
-    std::stable_sort(order.begin(), order.end(),
-                     [](const FittedModel* a, const FittedModel* b) { return a->chi2 < b->chi2; });
+    std::ranges::stable_sort(order, {}, &FittedModel::chi2);
+    order.resize(std::min(order.size(), static_cast<std::size_t>(rules.refined_effects)));
     std::vector<material::ParameterSet> sets = {evidence.base.fit.parameters};
-    for (std::size_t k = 0; k < std::min(order.size(), kRefinedEffects); ++k) sets.push_back(order[k]->parameters);
-    const double error = workbench.refine(sets);
+    for (const FittedModel* fit : order) sets.push_back(fit->parameters);
+    LearntData learnt = learnt_at(evidence, sets, rules);
+    static_cast<Data&>(evidence) = std::move(learnt.data);
     const double begin = 0.6 + 0.03 * pass;
-    fit_models(evidence, evidence.base.fit.u, {begin, begin + 0.03});
-    if (error < kWellKnown) return;
+    evidence = with_fits(std::move(evidence), {begin, begin + 0.03});
+    if (learnt.largest_error < rules.well_known) break;
   }
+  return evidence;
+}
+
+/// Fits under the discretisation error of layouts on their own, then under that of the models fitted before.
+Evidence fitted(const Data& data, const DiagnosisSettings& settings) {
+  Evidence evidence{data, settings};
+  const bool shares = settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus);
+  const int passes = shares ? 1 + settings.procedure.fit.mesh_passes : 1;
+  const double first = evidence.fractures ? 0.55 : 0.0;
+  for (int pass = 0; pass < passes; ++pass) {
+    if (pass > 0) evidence = with_shared_discretisation(std::move(evidence));
+    const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
+    evidence = with_fits(std::move(evidence), {begin, end});
+    if (pass == 0) evidence = with_refined_fractures(std::move(evidence));
+  }
+  return evidence;
+}
+
+/// What the base does to data of its own, and how often chance does as much.
+Evidence with_draws(Evidence evidence) {
+  const Observations& observations = evidence.observations;
+  const DiagnosisSettings& settings = evidence.settings;
+  const double imitated = settings.procedure.names.imitated;
+  report(settings, 0.7, "bootstrap of the base model");
+  evidence.base.parts = parts_of_rows(observations);
+  evidence.base_statistics =
+      anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())}, imitated);
+  evidence.base_draws = bootstrap_anchor(evidence.base, observations, imitated, settings.bootstraps, settings.seed);
+  return evidence;
+}
+
+/// With the chances of the single effects: of their drops, and of their misfits where a name is in question.
+Evidence with_chances(Evidence evidence) {
+  evidence.p_misfit = chance_of_base_misfit(evidence);
+  const std::vector<double> largest_drops = over_draws(evidence.base_draws, &DrawStatistics::largest_drop);
+  evidence.p_family_wise.clear();
+  for (const FittedModel& single : evidence.singles)
+    evidence.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
+  evidence.p_fit.assign(evidence.singles.size(), 1.0);
+  if (!is_noticed(evidence)) return evidence;
+  report(evidence.settings, 0.8, "testing the residuals of each effect");
+  // One far behind the best cannot be in the set: its misfit is not bootstrapped.
+  const double in_reach = evidence.singles[best_single(evidence)].chi2 + evidence.settings.procedure.fit.far_behind;
+  for (std::size_t k = 0; k < evidence.singles.size(); ++k)
+    evidence.p_fit[k] = evidence.singles[k].chi2 <= in_reach ? chance_of_misfit(evidence, evidence.singles[k]) : 0.0;
+  return evidence;
+}
+
+/// A second effect would only make up for the bound of one whose residuals are noise: no pairs then.
+bool needs_pairs(const Evidence& evidence) {
+  return is_noticed(evidence) && evidence.p_fit[best_single(evidence)] < evidence.settings.procedure.levels.unexplained;
 }
 
 }  // namespace
 
-std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
-                                     const std::vector<std::string>& effects, std::span<const double> sizes) {
-  std::vector<Signature> signatures;
-  for (const std::string& effect : effects) {
-    std::vector<std::string> names = anchor.effects;
-    names.push_back(effect);
-    const CoordinateMap map = model.map(names);
-    const int own = anchor.u.size();
-    Signature signature{effect, {}, map.lower(own) >= 0.0};
-    std::vector<Eigen::VectorXd> points;
-    for (const double size : signed_sizes(sizes, signature.one_sided)) {
-      points.push_back(widened_start(anchor, map));
-      points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
+std::size_t best_single(const Evidence& evidence) {
+  const auto best = std::ranges::min_element(evidence.singles, {}, &FittedModel::chi2);
+  return static_cast<std::size_t>(best - evidence.singles.begin());
+}
+
+bool is_noticed(const Evidence& evidence) {
+  return std::ranges::any_of(evidence.p_family_wise,
+                             [&](double p) { return p <= evidence.settings.procedure.levels.name; });
+}
+
+bool is_usable(const FittedModel& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
+
+Evidence gather_evidence(const Data& data, const DiagnosisSettings& settings) {
+  Evidence evidence = with_chances(with_draws(fitted(data, settings)));
+  while (needs_pairs(evidence)) {
+    report(settings, 0.9, "fitting pairs of effects");
+    Pairs found = pairs_on_best(evidence);
+    evidence.singles = std::move(found.singles);
+    if (found.improved) {
+      evidence = with_chances(std::move(evidence));
+      continue;
     }
-    signature.changes = model.predict(map, points).colwise() - anchor.predicted;
-    signatures.push_back(std::move(signature));
+    evidence.pairs = std::move(found.pairs);
+    for (const FittedModel& pair : evidence.pairs) evidence.p_pair_fit.push_back(chance_of_misfit(evidence, pair));
+    break;
   }
-  return signatures;
-}
-
-Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& model) {
-  Eigen::MatrixXd directions(model.size(), static_cast<Eigen::Index>(evidence.discretisation.size()));
-  for (std::size_t k = 0; k < evidence.discretisation.size(); ++k) {
-    const ModelPoint& point = evidence.discretisation[k];
-    directions.col(static_cast<Eigen::Index>(k)) =
-        evidence.settings.floor.mesh_amplitude * model.mesh_change(model.map(point.effects), point.u);
-    if (k > 0) directions.col(static_cast<Eigen::Index>(k)) -= directions.col(0);
-  }
-  return directions;
-}
-
-FittedModel better_of(FittedModel a, FittedModel b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
-
-Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) {
-  const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.model.basis().centre);
-  u.head(first.size()) = first;
-  return u;
-}
-
-FittedModel restarted(const Evidence& evidence, FittedModel fit) {
-  constexpr double kMuch = 60.0, kNothing = 0.01;
-  const double found = evidence.base.fit.chi2 - fit.chi2;
-  const auto again_from = [&](const Eigen::VectorXd& u) {
-    FittedModel again = fit_model(evidence.model, evidence.observations, fit.effects, u);
-    return better_of(std::move(fit), std::move(again));
-  };
-  if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
-  // A further fit of every effect to moduli of layouts would double the work; effects of a machine on curves need it.
-  const bool is_far_off = fit.chi2 > evidence.observations.size() + kMuch;
-  const bool is_of_curves =
-      material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
-  if (fit.effects.size() > 1 || !is_far_off || !is_of_curves) return fit;
-  const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < kNothing;
-  if (found >= kMuch || found_nothing) fit = again_from(promising_initial_guess(evidence, fit));
-  return fit;
-}
-
-Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
-                                   const FittedModel& anchor, const Signature& signature) {
-  std::vector<std::string> names = anchor.effects;
-  names.push_back(signature.effect);
-  const CoordinateMap map = model.map(names);
-  const Whitener whitener(observations.covariance());
-  const Eigen::Index own = anchor.u.size();
-  Eigen::VectorXd best = widened_start(anchor, map);
-  double least = anchor.chi2;
-  const std::vector<double> sizes = signed_sizes(kSizes, signature.one_sided);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    FittedModel shifted = anchor;
-    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
-    Eigen::VectorXd step;
-    const double chi2 = linear_refit(shifted, observations.values, whitener, &step);
-    if (chi2 >= least) continue;
-    least = chi2;
-    best = widened_start(anchor, map);
-    best.head(own) += step;
-    best[own] = sizes[i];
-  }
-  // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
-  if (best[own] == 0.0) best[own] = kSizes[0];
-  return best;
-}
-
-Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings) {
-  Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}, {}};
-  const CoordinateMap map = evidence.model.base_map();
-  const double first = workbench.has_fractures() ? 0.55 : 0.0;
-  const int passes =
-      settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
-  for (int pass = 0; pass < passes; ++pass) {
-    if (pass > 0) share_discretisation(evidence);
-    const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
-    fit_models(evidence, pass == 0 ? map.coordinates(evidence.model.basis().centre) : evidence.base.fit.u,
-               {begin, end});
-    if (pass == 0) refine_fractures(evidence, workbench);
-  }
-  const Observations& observations = evidence.observations;
-  if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
-  evidence.base.parts = parts_of_rows(observations);
-  evidence.base_statistics =
-      anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
-  evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
   return evidence;
-}
-
-Observations with_discretisation_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
-  Observations observations = evidence.observations;
-  if (observations.has_shared_discretisation())
-    observations.discretisation_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
-  return observations;
-}
-
-ProfileFit fit_with_own_discretisation(const Evidence& evidence, const std::vector<std::string>& effects,
-                                       const Eigen::VectorXd& start, const std::vector<int>& held, double hopeless) {
-  const auto fitted_from = [&](const Eigen::VectorXd& u) {
-    const Observations observations = with_discretisation_at(evidence, evidence.model.map(effects), u);
-    ProfileFit at{fit_model(evidence.model, observations, effects, u, held)};
-    const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
-    at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    return at;
-  };
-  ProfileFit first = fitted_from(start);
-  if (!evidence.observations.has_shared_discretisation() || first.deviance > hopeless) return first;
-  return fitted_from(first.fit.u);
 }
 
 }  // namespace nacre::diagnosis

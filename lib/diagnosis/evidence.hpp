@@ -1,16 +1,13 @@
 #pragma once
-// The evidence of a decision: base model and base + one effect, fitted jointly, and bootstrap draws of the base. Chi
-// squared r' C^-1 r with the covariance C of scatter, discretisation floor and emulator.
+// The evidence of a decision: data with base model and base + one effect (and pairs, when needed) fitted jointly, and
+// the chances of what was found. Chi squared r' C^-1 r with the covariance C of scatter, discretisation floor and
+// emulator.
 
-#include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "diagnosis/bootstrap.hpp"
-#include "diagnosis/fit.hpp"
-#include "diagnosis/settings.hpp"
-#include "diagnosis/workbench.hpp"
+#include "diagnosis/data.hpp"
 
 namespace nacre::diagnosis {
 
@@ -20,63 +17,35 @@ struct ModelPoint {
   Eigen::VectorXd u;
 };
 
-/// Everything the decision rests on: the base model, every effect (and pair, when needed) fitted jointly with it.
-struct Evidence {
-  const FeatureModel& model;
-  Observations& observations;  ///< with their discretisation error, shared directions included
-  const DiagnosisSettings& settings;
-  Anchor base;
-  std::vector<std::string> effects;        ///< candidates, in the order of material::effect_library()
-  std::vector<FittedModel> singles;        ///< one per effect
-  std::vector<ModelPoint> discretisation;  ///< models whose change on a refined mesh gives the shared directions
-  DrawStatistics base_statistics;
-  std::vector<DrawStatistics> base_draws;
+/// Everything that a decision rests on. The observations have their discretisation error, shared directions included.
+struct Evidence : Data {
+  DiagnosisSettings settings;
+  Anchor base = {};
+  std::vector<FittedModel> singles = {};        ///< one per effect
+  std::vector<ModelPoint> discretisation = {};  ///< models whose change on a refined mesh gives the shared directions
+  DrawStatistics base_statistics = {};
+  std::vector<DrawStatistics> base_draws = {};
+  double p_misfit = 1.0;                   ///< chance of a misfit as large as the base's when it is true
+  std::vector<double> p_family_wise = {};  ///< per effect: chance that the best of all lowers chi squared as much
+  std::vector<double> p_fit = {};  ///< per effect: chance of a misfit as large when base + effect is true; 1 where no
+                                   ///< name is in question, 0 too far behind the best to be tested
+  std::vector<FittedModel> pairs = {};  ///< on the best effects, where no single one fits
+  std::vector<double> p_pair_fit = {};  ///< per pair
 };
 
-/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common
+/// Fits base and single effects and bootstraps the base. With a floor that has a common
 /// direction the fits are done first with independent layouts and again with the directions along which a refined mesh
-/// moves these models.
-Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings);
+/// moves these models. Where an effect improves the fit beyond chance, the misfit of each is tested; where none fits,
+/// pairs are built on the best.
+Evidence gather_evidence(const Data& data, const DiagnosisSettings& settings);
 
-/// Signatures of every effect on top of a fitted model, at these shares of its range.
-std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
-                                     const std::vector<std::string>& effects, std::span<const double> sizes = kSizes);
+/// The effect of the least chi squared; at least one.
+std::size_t best_single(const Evidence& evidence);
 
-/// Initial guess of a joint fit of a fitted model and one effect more: the size of its signature that lowers the misfit
-/// most.
-Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
-                                   const FittedModel& anchor, const Signature& signature);
+/// Whether some effect improves the fit beyond chance: a name is in question.
+bool is_noticed(const Evidence& evidence);
 
-/// The one of smaller chi squared.
-FittedModel better_of(FittedModel a, FittedModel b);
-
-/// Changes by a refined mesh along the shared directions of the evidence in the rows of `model`, one standard deviation
-/// each, rows x directions: at the base, and the difference from it where an effect of the material is true. Each has a
-/// factor of its own, because an effect that smooths or sharpens a layout changes its discretisation error.
-Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& model);
-
-/// These coordinates, base constants at the initial guess of the base.
-Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);
-
-/// A model that explains much of the base's misfit is restarted from the initial guess of the base: a base that bent
-/// itself towards the data may be caught behind a local maximum, with constants at their bounds. So are curves of
-/// coupons with much slack: an effect on the measurement that stays far off restarts at a promising size. The best of
-/// all.
-FittedModel restarted(const Evidence& evidence, FittedModel fit);
-
-/// Rows with the change of this model on a refined mesh, in place of the changes of the base and all its rivals.
-Observations with_discretisation_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u);
-
-/// A model fitted with its own discretisation error.
-struct ProfileFit {
-  FittedModel fit;
-  double deviance = 0.0;  ///< -2 log likelihood of the data, up to a constant; prior of the base constants included
-};
-
-/// Fits with the discretisation error at the start, and once more with that at the end of this fit; where the first
-/// deviance is `hopeless` it is left at that. Coordinates that are `held` stay.
-ProfileFit fit_with_own_discretisation(const Evidence& evidence, const std::vector<std::string>& effects,
-                                       const Eigen::VectorXd& start, const std::vector<int>& held = {},
-                                       double hopeless = std::numeric_limits<double>::infinity());
+/// Whether a model may explain the data: its residuals are noise by this level, and its effects are not at a bound.
+bool is_usable(const FittedModel& fit, double p_fit, double level);
 
 }  // namespace nacre::diagnosis

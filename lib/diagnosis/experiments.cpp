@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "base/parallel.hpp"
 #include "diagnosis/predicted_tests.hpp"
+#include "diagnosis/words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -14,11 +13,10 @@ using tester::TestKind;
 
 /// Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: of the others the
 /// modulus gives the same information for less.
-std::vector<PossibleTest> tests_worth_their_cost(const Observations& observations) {
-  std::vector<PossibleTest> tests = possible_tests(observations);
+std::vector<PossibleTest> tests_worth_their_cost(const Observations& observations, const TestRules& rules) {
+  std::vector<PossibleTest> tests = possible_tests(observations, rules);
   if (observations.has(TestKind::modulus))
-    std::erase_if(tests,
-                  [](const PossibleTest& t) { return t.test == TestKind::toughness && t.kind != AddedTest::twin; });
+    std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness && !is_twin(t.way.kind); });
   return tests;
 }
 
@@ -32,28 +30,24 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t models) {
 }  // namespace
 
 std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
-                                             int count, int replicates) {
+                                             const TestRules& rules) {
   if (models.size() < 2) return {};
-  const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence.observations);
-  const PredictedTests predicted(evidence, models, tests, replicates);
+  const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence.observations, rules);
+  const PredictedTests predicted(evidence, models, tests, rules.replicates);
   const auto pairs = pairs_of(models.size());
   std::vector<TestValue> values(tests.size());
   parallel_for(static_cast<int>(tests.size()), [&](int job) {
     const auto t = static_cast<std::size_t>(job);
-    values[t] = {tests[t].words, predicted.separations(t, pairs)};
+    values[t] = {tests[t].way, predicted.separations(t, pairs)};
   });
   std::vector<NextExperiment> experiments;
-  for (const TestChoice& choice : choose_tests(values, count)) {
+  for (const TestChoice& choice : choose_tests(values, rules.count, rules)) {
     const PossibleTest& test = tests[choice.test];
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
     const tester::Loading loading = test.test == TestKind::tensile ? coupon_loading() : tester::Loading{};
-    experiments.push_back(
-        {test.design, test.test, test.conditions, replicates, loading,
-         fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors after their constants "
-                     "are refitted",
-                     test.words, in_words(separation.feature), in_words(models[a].effects), in_words(models[b].effects),
-                     separation.errors)});
+    experiments.push_back({test.design, test.test, test.conditions, rules.replicates, loading,
+                           in_words(Separated{test, separation, models[a].effects, models[b].effects})});
   }
   return experiments;
 }
@@ -64,9 +58,7 @@ std::vector<NextExperiment> specimens_of_materials(const Observations& observati
   for (const ModulusAtBound& each : moduli) {
     experiments.push_back({*pattern::design_from_name(kConstantMaterials[each.material]), TestKind::modulus,
                            usual_conditions(observations, TestKind::modulus), replicates, tester::Loading{},
-                           fmt::format("homogeneous {} specimens: layouts want an E of {:.3g} Pa, theirs would tell "
-                                       "another material from an effect that the model lacks",
-                                       kConstantMaterials[each.material], each.modulus_pa)});
+                           in_words(UntoldMaterial{each})});
   }
   return experiments;
 }

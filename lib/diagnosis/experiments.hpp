@@ -8,14 +8,14 @@
 
 namespace nacre::diagnosis {
 
-/// At most `count` of the possible tests that together would best separate these models (choose_tests), by the
-/// information of each beyond the present measurements (PredictedTests), `replicates` specimens of each. Fewer than two
-/// models: nothing to separate. Fracture tests are simulated, one per model and test.
+/// At most rules.count of the possible tests that together would best separate these models (choose_tests), by the
+/// information of each beyond the present measurements (PredictedTests), rules.replicates specimens of each. Fewer than
+/// two models: nothing to separate. Fracture tests are simulated, one per model and test.
 std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
-                                             int count, int replicates = 3);
+                                             const TestRules& rules);
 
 /// Moduli of homogeneous specimens of these materials, which tell whether it is another material or an effect.
 std::vector<NextExperiment> specimens_of_materials(const Observations& observations,
-                                                   const std::vector<ModulusAtBound>& moduli, int replicates = 3);
+                                                   const std::vector<ModulusAtBound>& moduli, int replicates);
 
 }  // namespace nacre::diagnosis

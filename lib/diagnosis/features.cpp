@@ -10,11 +10,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kPoints = 128;
-constexpr double kDropOffset = 0.05;
-constexpr double kCarriedShare = 0.8;  // of its largest stress: a coupon that carries less is parting
-constexpr double kShallowest = 0.8;    // an unloading that goes back less far has no reliable slope
-
 struct Names {
   std::string_view name, words;
 };
@@ -84,17 +79,17 @@ struct Unloading {
   std::size_t turn = 0, end = 0;
 };
 
-std::optional<Unloading> first_unloading(const tester::Curve& curve) {
-  constexpr double kParted = 0.05;  // a break lets go of everything between two readings
+std::optional<Unloading> first_unloading(const tester::Curve& curve, const CurveReading& reading) {
   for (std::size_t turn = 1; turn + 1 < curve.size(); ++turn) {
     const double top = curve.stress_pa[turn];
     if (curve.strain[turn + 1] >= curve.strain[turn] || top <= 0.0) continue;
     std::size_t next = turn + 1;
     while (next < curve.size() && curve.strain[next] <= curve.strain[turn]) ++next;
     const auto at = [&](std::size_t k) { return curve.stress_pa.begin() + static_cast<std::ptrdiff_t>(k); };
-    const auto fallen = std::find_if(at(turn + 1), at(next), [&](double stress) { return stress < kShallowest * top; });
-    // Readings of strain waver: a turn without a fall of the stress is none.
-    if (fallen == at(next) || *fallen < kParted * top) continue;
+    const auto fallen =
+        std::find_if(at(turn + 1), at(next), [&](double stress) { return stress < reading.turned_share * top; });
+    // Readings of strain waver: a turn without a fall of the stress is none. A break lets go of everything between two.
+    if (fallen == at(next) || *fallen < reading.parted_share * top) continue;
     const auto least = std::min_element(curve.strain.begin() + static_cast<std::ptrdiff_t>(turn),
                                         curve.strain.begin() + static_cast<std::ptrdiff_t>(next));
     return Unloading{turn, static_cast<std::size_t>(least - curve.strain.begin())};
@@ -113,10 +108,10 @@ tester::Curve unloading_of(const tester::Curve& curve, const Unloading& unloadin
 }
 
 /// Features of the first unloading.
-void put_unloading(FeatureValues& values, const tester::Curve& curve) {
-  const auto unloading = first_unloading(curve);
+void put_unloading(FeatureValues& values, const tester::Curve& curve, const CurveReading& reading) {
+  const auto unloading = first_unloading(curve, reading);
   if (!unloading) return;
-  const tester::Curve path = smoothed(unloading_of(curve, *unloading));
+  const tester::Curve path = smoothed(unloading_of(curve, *unloading), reading);
   const double top = path.stress_pa.back();
   const auto strain_at = [&](double stress) -> std::optional<double> {
     for (std::size_t k = path.size() - 1; k > 0; --k) {
@@ -152,11 +147,12 @@ Result<Feature> feature_from_string(std::string_view name) {
   return fail("unknown feature '{}'", name);
 }
 
-FeatureValues fracture_features(const tester::Curve& curve) {
+FeatureValues fracture_features(const tester::Curve& curve, const CurveReading& reading) {
   FeatureValues values;
   tester::Curve forward = measurement::forward_part(curve);
   if (forward.size() < 4 || !(tester::area_under(forward) > 0.0)) return values;
-  if (forward.size() > kPoints) forward = tester::resampled(forward, kPoints);
+  const auto points = static_cast<std::size_t>(reading.fracture_points);
+  if (forward.size() > points) forward = tester::resampled(forward, points);
   const std::optional<Rise> rise = rise_of(forward);
   if (!rise) return values;
   put_rise(values, *rise);
@@ -166,13 +162,13 @@ FeatureValues fracture_features(const tester::Curve& curve) {
   std::size_t half = rise->path.size() - 1;
   while (half + 1 < forward.size() && forward.stress_pa[half] > 0.5 * rise->peak_pa) ++half;
   value_of(values, Feature::drop) =
-      std::log(kDropOffset + (forward.strain[half] - rise->peak_strain) / rise->peak_strain);
+      std::log(reading.drop_offset + (forward.strain[half] - rise->peak_strain) / rise->peak_strain);
   return values;
 }
 
-FeatureValues tensile_features(const tester::Curve& curve) {
+FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading) {
   FeatureValues values;
-  const tester::Curve forward = smoothed(measurement::forward_part(curve));
+  const tester::Curve forward = smoothed(measurement::forward_part(curve), reading);
   const std::optional<Rise> rise = rise_of(forward);
   if (!rise) return values;
   put_rise(values, *rise);
@@ -183,18 +179,20 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   value_of(values, Feature::toe_strain).reset();
   if (const double energy = tester::area_under(forward); energy > 0.0)
     value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
-  put_unloading(values, curve);
+  put_unloading(values, curve, reading);
   return values;
 }
 
-bool is_unloaded(const tester::Curve& curve) { return first_unloading(curve).has_value(); }
+bool is_unloaded(const tester::Curve& curve, const CurveReading& reading) {
+  return first_unloading(curve, reading).has_value();
+}
 
-std::optional<double> carried_strain(const tester::Curve& curve) {
-  if (curve.empty() || is_unloaded(curve)) return std::nullopt;
+std::optional<double> carried_strain(const tester::Curve& curve, const CurveReading& reading) {
+  if (curve.empty() || is_unloaded(curve, reading)) return std::nullopt;
   const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
   if (*peak <= 0.0) return std::nullopt;
   const auto parted =
-      std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < kCarriedShare * *peak; });
+      std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < reading.carried_share * *peak; });
   return curve.strain[static_cast<std::size_t>(std::prev(parted) - curve.stress_pa.begin())];
 }
 

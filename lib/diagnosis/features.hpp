@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
+#include "diagnosis/procedure.hpp"
 #include "tester/curve.hpp"
 
 namespace nacre::diagnosis {
@@ -51,20 +52,20 @@ inline const std::optional<double>& value_of(const FeatureValues& values, Featur
 
 /// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and
 /// simulated curves are read in the same way. All empty when the stress never rises.
-FeatureValues fracture_features(const tester::Curve& curve);
+FeatureValues fracture_features(const tester::Curve& curve, const CurveReading& reading);
 
 /// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee
 /// (over all of the curve: a plateau behind the peak bends it too), and of the first unloading where there is one. Its
 /// strain is not among them: it is where the test was stopped. Readings that scatter are smoothed first
 /// (smoothing.hpp).
-FeatureValues tensile_features(const tester::Curve& curve);
+FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading);
 
 /// Whether a tensile curve goes back on its way.
-bool is_unloaded(const tester::Curve& curve);
+bool is_unloaded(const tester::Curve& curve, const CurveReading& reading);
 
 /// The strain up to which a tensile curve is read: where it carries four fifths of its largest stress, so that a
 /// material that flows is read while it flows, and none while it parts; empty when it was unloaded on the way (then all
 /// of the curve is read).
-std::optional<double> carried_strain(const tester::Curve& curve);
+std::optional<double> carried_strain(const tester::Curve& curve, const CurveReading& reading);
 
 }  // namespace nacre::diagnosis

@@ -4,26 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "material/effect_words.hpp"
-
 namespace nacre::diagnosis {
-
-std::string in_words(const std::vector<std::string>& effects) {
-  if (effects.empty()) return "the base model";
-  return material::effect_in_words(fmt::format("{}", fmt::join(effects, " with ")));
-}
-
 namespace {
 
 /// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of
 /// log E.
 constexpr double kSlopeStep = 0.01;
-constexpr int kIterations = 12;
-/// A drop of chi2 that no threshold would notice.
-constexpr double kConverged = 0.02;
 
 double prior_chi2(const FittedModel& fit, const Eigen::VectorXd& u) {
   return ((u.head(fit.base_count).array() - 0.5) / fit.prior_sd.array()).square().sum();
@@ -155,7 +141,7 @@ FittedModel linearised(const FeatureModel& model, const std::vector<std::string>
   return fit;
 }
 
-FittedModel fit_model(const FeatureModel& model, const Observations& observations,
+FittedModel fit_model(const FeatureModel& model, const Observations& observations, const FitRules& rules,
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held) {
   const CoordinateMap map = model.map(effects);
@@ -164,7 +150,7 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
   FittedModel fit = initial_fit(model, map, start);
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < rules.iterations; ++iteration) {
     fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
     fit.free = free_coordinates(fit, map, y, whitener, held);
     double gained = 0.0;
@@ -182,7 +168,7 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
         damping *= 10.0;
       }
     }
-    if (gained < kConverged) break;
+    if (gained < rules.converged) break;
   }
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
   fit.free = free_coordinates(fit, map, y, whitener, held);

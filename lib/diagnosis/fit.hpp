@@ -9,8 +9,8 @@
 
 namespace nacre::diagnosis {
 
-/// Extensions in words: "droplet mixing with rigid yield"; "the base model" for none.
-std::string in_words(const std::vector<std::string>& effects);
+/// Where the descent to a fit began (global_fit.hpp).
+enum class StartKind { centre, earlier, signature, anchor, relative };
 
 /// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a
 /// wide Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
@@ -21,10 +21,11 @@ struct FittedModel {
   Eigen::VectorXd u;                 ///< coordinates of the optimum (CoordinateMap)
   Eigen::VectorXd lower, upper;      ///< their bounds
   material::ParameterSet parameters;
-  Eigen::VectorXd predicted;        ///< per row
-  Eigen::MatrixXd jacobian;         ///< rows x coordinates
-  std::vector<int> free;            ///< coordinates that may move; the others are held by a bound that they would leave
-  double chi2 = 0.0;                ///< weighted sum of squares, prior included
+  Eigen::VectorXd predicted;  ///< per row
+  Eigen::MatrixXd jacobian;   ///< rows x coordinates
+  std::vector<int> free;      ///< coordinates that may move; the others are held by a bound that they would leave
+  double chi2 = 0.0;          ///< weighted sum of squares, prior included
+  StartKind from = StartKind::centre;
   bool extension_on_bound = false;  ///< an extension parameter is at its bound (zero does not count)
   void free_all();                  ///< every coordinate may move, also one at its bound
   /// Whitened columns of the free coordinates: rows, then those of the prior.
@@ -39,7 +40,7 @@ struct FittedModel {
 
 /// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
 /// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
-FittedModel fit_model(const FeatureModel& model, const Observations& observations,
+FittedModel fit_model(const FeatureModel& model, const Observations& observations, const FitRules& rules,
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held = {});
 

@@ -15,13 +15,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr double kOffset = 3.0;        // deviation of a feature's level, in units of its spread over runs
-constexpr double kCurvedLength = 1.0;  // in log units of eta
-constexpr double kEffectLength = 0.5;  // in units of an effect's largest size
-constexpr double kOwnShare = 0.15;     // of an effect's variance that depends on eta
-constexpr double kNoEffect = 1e-3;     // share of the largest size below which an effect is none
-constexpr int kNearest = 5;            // runs whose curves stand for a fit's
-
 double matern52_at(double distance) { return matern52(std::sqrt(5.0) * distance); }
 
 int library_index(std::string_view name) {
@@ -33,22 +26,25 @@ int library_index(std::string_view name) {
 
 }  // namespace
 
-double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const auto m = [](double distance) { return matern52_at(std::abs(distance) / kEffectLength); };
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const EmulatorRules& rules) {
+  const auto m = [&](double distance) { return matern52_at(std::abs(distance) / rules.effect_length); };
   const double size = a[0] * b[0] + m(a[0] - b[0]) - m(a[0]) * m(b[0]);
   const double shape = a.size() > 1 ? m((a.tail(a.size() - 1) - b.tail(b.size() - 1)).norm()) : 1.0;
   return size * shape;
 }
 
-FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs,
-                                 material::ToughnessParameters centre)
-    : observations_(observations), runs_(runs), centre_(to_vector(centre)) {
+FractureSurface::FractureSurface(const Observations& observations, const std::vector<int>& groups,
+                                 std::vector<FractureRun> runs, const material::ToughnessParameters& centre,
+                                 const EmulatorRules& rules)
+    : reading_(observations.reading), runs_(std::move(runs)), centre_(to_vector(centre)), rules_(rules) {
+  for (const int group : groups) batch_steps_.push_back(observations.groups[group].batch_step);
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];
     if (row.kind != RowKind::mean || row.test != tester::TestKind::toughness) continue;
-    const auto at = std::find(runs.groups().begin(), runs.groups().end(), row.group);
-    rows_.push_back({i, static_cast<int>(at - runs.groups().begin()), row.feature});
+    const auto at = std::ranges::find(groups, row.group);
+    rows_.push_back({i, static_cast<int>(at - groups.begin()), row.feature});
   }
+  learn();
 }
 
 FractureSurface::SurfacePoint FractureSurface::point_of(const material::ParameterSet& set) const {
@@ -65,19 +61,21 @@ FractureSurface::SurfacePoint FractureSurface::point_of(const material::Paramete
     for (std::size_t p = 0; p < values.size(); ++p) {
       x[p] = material::strength_of(effect.parameters[p], values[p]);
     }
-    if (std::abs(x[0]) > kNoEffect) point.effects.emplace(library_index(name), x);
+    if (std::abs(x[0]) > rules_.no_effect) point.effects.emplace(library_index(name), x);
   }
   return point;
 }
 
-double FractureSurface::covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) {
-  const double near = matern52_at((a.log_eta - b.log_eta).norm() / kCurvedLength);
-  double sum = square(kOffset) + square(kernel.linear) * a.log_eta.dot(b.log_eta) + square(kernel.curved) * near;
+double FractureSurface::covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) const {
+  const double near = matern52_at((a.log_eta - b.log_eta).norm() / rules_.curved_length);
+  double sum =
+      square(rules_.level_sd) + square(kernel.linear) * a.log_eta.dot(b.log_eta) + square(kernel.curved) * near;
   for (const auto& [effect, x] : a.effects) {
     const auto other = b.effects.find(effect);
     const auto amplitude = kernel.effect.find(effect);
     if (other == b.effects.end() || amplitude == kernel.effect.end()) continue;
-    sum += square(amplitude->second) * effect_covariance(x, other->second) * (1.0 - kOwnShare + kOwnShare * near);
+    sum += square(amplitude->second) * effect_covariance(x, other->second, rules_) *
+           (1.0 - rules_.own_share + rules_.own_share * near);
   }
   return sum;
 }
@@ -111,10 +109,11 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
     const auto& [effect, x] = *points_[k].effects.begin();
     auto& [sum, expected] = squares[effect];
     sum += change.squaredNorm();
-    expected += effect_covariance(x, x) * static_cast<double>(change.size());
+    expected += effect_covariance(x, x, rules_) * static_cast<double>(change.size());
   }
   for (const auto& [effect, sums] : squares)
-    learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
+    learnt.kernel.effect[effect] =
+        std::max(std::sqrt(sums.first / sums.second), rules_.least_amplitude * learnt.kernel.noise);
 }
 
 FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>& at,
@@ -130,11 +129,14 @@ FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>
     const Eigen::LLT<Eigen::MatrixXd> factor(own.surface.covariance_matrix(kernel, own.at));
     const Eigen::MatrixXd lower = factor.matrixL();
     // A weak prior about the start keeps the amplitudes that the runs do not determine.
-    const double prior = 0.5 * (square(x[0] / 1.5) + square((x[1] + 1.0) / 1.5) + square((x[2] + 1.5) / 1.5));
+    const EmulatorRules& rules = own.surface.rules_;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) squares += square((x[i] - rules.kernel[i]) / rules.kernel_sd);
+    const double prior = 0.5 * squares;
     return prior + 0.5 * factor.matrixL().solve(own.targets).squaredNorm() +
            static_cast<double>(own.targets.cols()) * lower.diagonal().array().log().sum();
   };
-  std::vector<double> x = {0.0, -1.0, -1.5};
+  std::vector<double> x(rules_.kernel.begin(), rules_.kernel.end());
   if (at.size() >= 5) {
     nlopt::opt search(nlopt::LN_SBPLX, 3);
     search.set_lower_bounds({-4.0, -5.0, -5.0});
@@ -187,16 +189,15 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
 }
 
 void FractureSurface::learn() {
-  points_.clear();
-  for (const FractureRun& run : runs_.runs()) points_.push_back(point_of(run.parameters));
+  for (const FractureRun& run : runs_) points_.push_back(point_of(run.parameters));
   const auto count = static_cast<Eigen::Index>(points_.size());
   Eigen::MatrixXd values(count, static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     double sum = 0.0;
     int known = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto& prediction = runs_.runs()[k].predictions[rows_[r].group];
-      const auto value = value_of(shown_features(prediction, {}), rows_[r].feature);
+      const auto& prediction = runs_[k].predictions[rows_[r].group];
+      const auto value = value_of(shown_features(prediction, {}, reading_), rows_[r].feature);
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
     }
@@ -231,16 +232,15 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
     order.emplace_back(distance, static_cast<int>(k));
   }
   std::sort(order.begin(), order.end());
-  order.resize(std::min<std::size_t>(order.size(), kNearest));
+  order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(rules_.nearest)));
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   Eigen::VectorXd known = change;
   for (const auto& [distance, k] : order) {
-    const FractureRun& run = runs_.runs()[k];
+    const FractureRun& run = runs_[k];
     std::vector<FeatureValues> plain, shown;
-    for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-      const Observation& group = observations_.groups[runs_.groups()[g]];
-      plain.push_back(shown_features(run.predictions[g], {}));
-      shown.push_back(shown_features(run.predictions[g], set.extensions, {.batch_step = group.batch_step}));
+    for (std::size_t g = 0; g < batch_steps_.size(); ++g) {
+      plain.push_back(shown_features(run.predictions[g], {}, reading_));
+      shown.push_back(shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = batch_steps_[g]}));
     }
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto group = static_cast<std::size_t>(rows_[r].group);
@@ -274,10 +274,10 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {
   FeatureValues slopes;
   std::array<int, kFeatureCount> count{};
-  const FractureRun& run = runs_.runs().front();
-  for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-    const FeatureValues before = shown_features(run.predictions[g], set.extensions, {.batch_step = 0.0}),
-                        after = shown_features(run.predictions[g], set.extensions, {.batch_step = 1.0});
+  const FractureRun& run = runs_.front();
+  for (std::size_t g = 0; g < batch_steps_.size(); ++g) {
+    const FeatureValues before = shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = 0.0}),
+                        after = shown_features(run.predictions[g], set.extensions, reading_, {.batch_step = 1.0});
     for (std::size_t f = 0; f < kFeatureCount; ++f)
       if (before[f] && after[f]) slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]), ++count[f];
   }

@@ -10,28 +10,27 @@
 #include <map>
 #include <vector>
 
-#include "diagnosis/fracture_runs.hpp"
+#include "diagnosis/fracture_tests.hpp"
 
 namespace nacre::diagnosis {
 
 /// One row of the data that is a feature of a fracture group.
 struct SurfaceRow {
   int row = 0;    ///< index in Observations::rows
-  int group = 0;  ///< index in FractureRuns::groups()
+  int group = 0;  ///< index in FractureTests::groups()
   Feature feature = Feature::log_toughness;
 };
 
 /// Covariance of the changes by one effect, between two points given by its strengths (-1 to 1; further parameters
 /// behind): zero without the effect, linear and curved in its size.
-double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const EmulatorRules& rules);
 
 class FractureSurface {
  public:
-  /// Rows of the observations that the surface predicts.
-  explicit FractureSurface(const Observations& observations, const FractureRuns& runs,
-                           material::ToughnessParameters centre);
-  /// Learns from all runs there are now. O(runs^3) per feature.
-  void learn();
+  /// Learns the rows of the observations that are features of fracture tests from all runs of their `groups`
+  /// (FractureTests::groups()). O(runs^3) per feature.
+  FractureSurface(const Observations& observations, const std::vector<int>& groups, std::vector<FractureRun> runs,
+                  const material::ToughnessParameters& centre, const EmulatorRules& rules);
   const std::vector<SurfaceRow>& rows() const { return rows_; }
   /// Features at a parameter set, measurement side included, one per row().
   Eigen::VectorXd predict(const material::ParameterSet& set) const;
@@ -46,7 +45,7 @@ class FractureSurface {
     std::map<int, Eigen::VectorXd> effects;  ///< strengths, by index in the library
   };
   struct Kernel {
-    double linear = 0.5, curved = 0.2, noise = 0.05;
+    double linear = 1.0, curved = 1.0, noise = 1.0;
     std::map<int, double> effect;  ///< amplitude by library index
   };
   struct Learnt {
@@ -56,7 +55,7 @@ class FractureSurface {
     Eigen::MatrixXd weights;  ///< runs x rows
   };
   SurfacePoint point_of(const material::ParameterSet& set) const;
-  static double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b);
+  double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) const;
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
   /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
@@ -65,9 +64,13 @@ class FractureSurface {
   void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
   Eigen::VectorXd machine_change(const material::ParameterSet& set, const SurfacePoint& at) const;
 
-  const Observations& observations_;
-  const FractureRuns& runs_;
+  void learn();
+
+  CurveReading reading_;
+  std::vector<double> batch_steps_;  ///< per group
+  std::vector<FractureRun> runs_;
   material::ToughnessVector centre_;
+  EmulatorRules rules_;
   std::vector<SurfaceRow> rows_;
   std::vector<SurfacePoint> points_;
   std::vector<Learnt> learnt_;

@@ -11,9 +11,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kFolds = 5;
-constexpr int kIntervalDraws = 2000;
-
 struct LinearRefit {
   double chi2 = 0.0;
   Eigen::VectorXd delta;
@@ -77,13 +74,13 @@ struct HeldOut {
 };
 
 HeldOut hold_out(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                 double least_drop, const std::vector<std::vector<Eigen::Index>>& designs) {
+                 double least_drop, int folds, const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
   const Eigen::MatrixXd covariance = observations.covariance();
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
-  for (int fold = 0; fold < kFolds; ++fold) {
+  for (int fold = 0; fold < folds; ++fold) {
     std::vector<bool> held(y.size(), false);
-    for (std::size_t d = fold; d < designs.size(); d += kFolds)
+    for (std::size_t d = fold; d < designs.size(); d += folds)
       for (const Eigen::Index row : designs[d]) held[row] = true;
     std::vector<Eigen::Index> train;
     for (Eigen::Index row = 0; row < y.size(); ++row)
@@ -126,20 +123,20 @@ std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& obse
 }
 
 /// Reduction of the error, with its interval from a bootstrap over designs.
-void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uint64_t seed) {
+void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, int count, std::uint64_t seed) {
   std::vector<std::size_t> all(errors.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   gain.relative_reduction = reduction(errors, all);
   RandomStream draws(seed, "gain/interval");
   std::vector<double> reductions;
-  for (int i = 0; i < kIntervalDraws; ++i) {
+  for (int i = 0; i < count; ++i) {
     std::vector<std::size_t> picks(errors.size());
     for (std::size_t& pick : picks) pick = draws.index(static_cast<int>(errors.size()));
     reductions.push_back(reduction(errors, picks));
   }
   std::sort(reductions.begin(), reductions.end());
-  gain.interval_low = reductions[kIntervalDraws / 20];
-  gain.interval_high = reductions[kIntervalDraws - 1 - kIntervalDraws / 20];
+  gain.interval_low = reductions[count / 20];
+  gain.interval_high = reductions[count - 1 - count / 20];
 }
 
 /// Rows of one feature of layouts, under tests of one kind and the same conditions.
@@ -151,8 +148,7 @@ bool are_comparable(const Observations& observations, int a, int b) {
 }
 
 /// Pairs of layouts in the measured order, by this feature.
-Ranking ranking_by(Feature feature, const Observations& observations, const HeldOut& held) {
-  constexpr double kSetApart = 3.0;  // standard errors
+Ranking ranking_by(Feature feature, const Observations& observations, const HeldOut& held, double set_apart) {
   Ranking ranking;
   const Eigen::VectorXd& y = observations.values;
   const auto ordered_by = [&](const Eigen::VectorXd& errors, int a, int b) {
@@ -165,7 +161,7 @@ Ranking ranking_by(Feature feature, const Observations& observations, const Held
       if (!are_comparable(observations, a, b)) continue;
       const double weight = observations.rows[a].weight + row.weight;
       const double error = observations.replicate_sd(feature, row.test) * std::sqrt(weight);
-      if (std::abs(y[a] - y[b]) < kSetApart * error) continue;
+      if (std::abs(y[a] - y[b]) < set_apart * error) continue;
       ++ranking.pairs;
       ranking.before += ordered_by(held.before, a, b);
       ranking.after += ordered_by(held.after, a, b);
@@ -174,7 +170,7 @@ Ranking ranking_by(Feature feature, const Observations& observations, const Held
   return ranking;
 }
 
-std::vector<FeatureGain> gain_by_feature(const Observations& observations, const HeldOut& held) {
+std::vector<FeatureGain> gain_by_feature(const Observations& observations, const HeldOut& held, double set_apart) {
   // A normal error of deviation s is 0.8 s large on average. The shared discretisation error is in the predictions.
   const Eigen::VectorXd deviation = observations.own_variances().cwiseSqrt();
   std::map<Feature, std::pair<FeatureGain, int>> by_feature;
@@ -192,7 +188,7 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
   for (auto& [feature, entry] : by_feature) {
     auto& [sums, count] = entry;
     gains.push_back({feature, sums.before / count, sums.after / count, sums.noise / count,
-                     ranking_by(feature, observations, held)});
+                     ranking_by(feature, observations, held, set_apart)});
   }
   return gains;
 }
@@ -202,13 +198,14 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
 double drop_needed(const Evidence& evidence) {
   std::vector<double> drops;
   for (const DrawStatistics& draw : evidence.base_draws) drops.push_back(draw.largest_drop());
-  return threshold(std::move(drops), evidence.settings.name_level);
+  return threshold(std::move(drops), evidence.settings.procedure.levels.name);
 }
 
 Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                   const std::vector<std::string>& effects, double least_drop, std::uint64_t seed) {
+                   const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
+                   std::uint64_t seed) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
-  const HeldOut held = hold_out(observations, base, models, least_drop, designs);
+  const HeldOut held = hold_out(observations, base, models, least_drop, rules.folds, designs);
   Gain gain;
   gain.of_coupons = coupons_count(observations, effects);
   int rows = 0;
@@ -225,8 +222,8 @@ Gain held_out_gain(const Observations& observations, const FittedModel& base, co
   }
   gain.held_out_error_before /= std::max(rows, 1);
   gain.held_out_error_after /= std::max(rows, 1);
-  put_reduction(gain, errors, seed);
-  gain.features = gain_by_feature(observations, held);
+  put_reduction(gain, errors, rules.interval_draws, seed);
+  gain.features = gain_by_feature(observations, held, rules.set_apart);
   return gain;
 }
 

@@ -10,12 +10,13 @@ namespace nacre::diagnosis {
 /// chi2 by more.
 double drop_needed(const Evidence& evidence);
 
-/// Mean absolute errors on held-out patterns, base against the model that would have been selected without them: five
+/// Mean absolute errors on held-out patterns, base against the model that would have been selected without them: some
 /// folds of whole layouts (twins stay together) and of coupons of one material at one rate, selection repeated in each
 /// fold among `models`, linear refits around the full fits. The overall figure is that of moduli and toughness of
 /// layouts, or of slopes and stresses of coupons where none of `effects` acts on layouts. A model that lowers chi2 by
 /// less than `least_drop` is not preferred to the base. 90 % interval by bootstrap over designs.
 Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                   const std::vector<std::string>& effects, double least_drop, std::uint64_t seed);
+                   const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
+                   std::uint64_t seed);
 
 }  // namespace nacre::diagnosis

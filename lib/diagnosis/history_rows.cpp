@@ -7,8 +7,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kFewest = 6;
-
 /// One number per specimen, or none where it is not known.
 using Regressor = std::vector<std::optional<double>>;
 
@@ -80,10 +78,10 @@ Regressor of_batches(const std::vector<Deviation>& deviations, Value value) {
 
 /// The slope over batches, and the differences of single batches from it.
 void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>& deviations, Feature feature,
-                    tester::TestKind test) {
+                    tester::TestKind test, int fewest) {
   constexpr double kLeast = 1e-6;
   const auto [steps, values] = centred(deviations, of_batches(deviations, [](double step) { return step; }), feature);
-  if (values.size() < kFewest || steps.squaredNorm() < kLeast) return;
+  if (values.size() < fewest || steps.squaredNorm() < kLeast) return;
   std::map<std::string, Eigen::VectorXd> members;
   std::vector<Eigen::VectorXd> regressors{steps};
   std::vector<int> numbers{0};
@@ -117,15 +115,15 @@ void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>&
 
 }  // namespace
 
-std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups) {
+std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups, int fewest) {
   std::vector<HistoryRow> rows;
   for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile}) {
     const std::vector<Deviation> deviations = deviations_of(groups, test);
     const Regressor order = order_in_batch(deviations);
     for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
-      add_batch_rows(rows, deviations, feature, test);
+      add_batch_rows(rows, deviations, feature, test, fewest);
       const auto [x, y] = centred(deviations, order, feature);
-      if (y.size() < kFewest || x.squaredNorm() < 1e-6) continue;
+      if (y.size() < fewest || x.squaredNorm() < 1e-6) continue;
       rows.push_back(
           {DataRow{-1, feature, RowKind::print_order, test, 1.0 / x.squaredNorm()}, x.dot(y) / x.squaredNorm(), {}});
     }

@@ -19,7 +19,7 @@ struct HistoryRow {
 /// Slopes of log E, log T and log peak stress over batches and over print order, by least squares on deviations from
 /// the groups' means: independent of those means, so that they add information to those of designs. Then how far single
 /// batches lie off the slope, each freed of the slope and of the batches before it. Only where replicates of one group
-/// differ in them.
-std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups);
+/// differ in them, and `fewest` specimens at least show it.
+std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups, int fewest);
 
 }  // namespace nacre::diagnosis

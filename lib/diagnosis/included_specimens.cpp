@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace nacre::diagnosis {
 namespace {
 
@@ -20,7 +18,7 @@ bool is_fracture(const SpecimenRecord& s) { return s.test == TestKind::toughness
 }  // namespace
 
 IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimens, bool fracture) {
-  IncludedSpecimens part{specimens, ""};
+  IncludedSpecimens part{specimens};
   const bool coupons = std::ranges::any_of(specimens, is_coupon);
   const bool layouts =
       std::ranges::any_of(specimens, [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
@@ -28,13 +26,9 @@ IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimen
   const bool something_else =
       coupons || std::ranges::any_of(specimens, is_layout_modulus) || (homogeneous > 0 && !layouts);
   if (fracture || !something_else) return part;
-  const auto valid =
-      std::ranges::count_if(specimens, [](const SpecimenRecord& s) { return s.valid && is_fracture(s); });
+  part.fractures_left_out = static_cast<int>(
+      std::ranges::count_if(specimens, [](const SpecimenRecord& s) { return s.valid && is_fracture(s); }));
   std::erase_if(part.specimens, is_fracture);
-  if (valid > 0)
-    part.left_out += fmt::format(
-        " {} toughness specimens were left out, and with them effects on fracture alone (--fracture includes both).",
-        valid);
   return part;
 }
 

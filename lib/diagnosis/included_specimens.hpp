@@ -1,17 +1,15 @@
 #pragma once
 // Which specimens a diagnosis includes.
 
-#include <string>
 #include <vector>
 
 #include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 
-/// The specimens of a diagnosis, and a sentence on the rest.
 struct IncludedSpecimens {
   std::vector<measurement::SpecimenRecord> specimens;
-  std::string left_out;  ///< sentences with a space in front; empty: nothing is
+  int fractures_left_out = 0;  ///< valid ones
 };
 
 /// Fracture tests are included when `fracture` asks for them, or when no other valid specimen would be: their

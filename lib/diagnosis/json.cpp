@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "diagnosis/words.hpp"
+
 namespace nacre::diagnosis {
 
 using nlohmann::ordered_json;
@@ -24,7 +26,7 @@ ordered_json json_of(const NamedEffect& e) {
 
 ordered_json json_of(const CandidateEffect& c) {
   return {{"name", c.name},
-          {"status", c.status},
+          {"status", to_string(c.status)},
           {"statistic", c.statistic},
           {"p_family_wise", c.p_family_wise},
           {"absorption", c.absorption},
@@ -42,7 +44,7 @@ ordered_json json_of(const Contrast& c) {
 }
 
 ordered_json json_of(const SanityCheck& s) {
-  return {{"changed", s.changed},
+  return {{"changed", in_words(s.changed)},
           {"feature", to_string(s.feature)},
           {"largest", s.largest},
           {"allowed", s.allowed},
@@ -121,7 +123,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"effects", array_of(d.effects)},
                                  {"candidates", array_of(d.candidates)},
                                  {"contrasts", array_of(d.contrasts)},
-                                 {"loudest", d.loudest},
+                                 {"loudest", in_words(d.loudest)},
                                  {"gain", d.gain ? json_of(*d.gain) : ordered_json(nullptr)},
                                  {"next_experiments", array_of(d.next_experiments)},
                                  {"p_misfit", d.p_misfit},
@@ -132,7 +134,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"noise_known", d.noise_known},
                                  {"procedure", d.procedure},
                                  {"possible", d.possible},
-                                 {"common_ground", d.common_ground},
+                                 {"common_ground", in_words(d.common_ground)},
                                  {"partial_gain", d.partial_gain ? json_of(*d.partial_gain) : ordered_json(nullptr)},
                                  {"base_fit", json_of(d.base_fit)},
                                  {"extended_fit", json_of(d.extended_fit)},
@@ -140,6 +142,44 @@ std::string to_json(const Diagnosis& d) {
                                  {"sanity", array_of(d.sanity)},
                                  {"residuals", array_of(d.residuals)}};
   return document.dump(2);
+}
+
+std::string to_json(const Plan& plan) {
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+  };
+  ordered_json effects = ordered_json::array(), additions = ordered_json::array();
+  for (const PlannedEffect& e : plan.effects) {
+    effects.push_back({{"name", e.name},
+                       {"family", e.family},
+                       {"status", to_string(e.status)},
+                       {"smallest_seen", or_null(e.smallest_seen)},
+                       {"smallest_told_apart", or_null(e.smallest_told_apart)},
+                       {"unit", e.unit},
+                       {"absorption", e.absorption},
+                       {"signal_to_noise", e.signal_to_noise},
+                       {"nearest_rival", e.nearest_rival},
+                       {"rival_cosine", e.rival_cosine}});
+  }
+  for (const PlannedAddition& a : plan.additions) {
+    ordered_json changes = ordered_json::array();
+    for (const auto& c : a.changes)
+      changes.push_back({{"effect", c.effect},
+                         {"from", to_string(c.from)},
+                         {"to", to_string(c.to)},
+                         {"smallest_told_apart", or_null(c.told_apart_from)}});
+    additions.push_back({{"words", a.words},
+                         {"specimens", a.specimens},
+                         {"replicates", a.replicates},
+                         {"score", a.score},
+                         {"changes", changes}});
+  }
+  return ordered_json{{"specimens", plan.specimens},
+                      {"groups", plan.groups},
+                      {"too_few", plan.too_few ? in_words(*plan.too_few) : ""},
+                      {"effects", effects},
+                      {"additions", additions}}
+      .dump(2);
 }
 
 }  // namespace nacre::diagnosis

@@ -40,15 +40,19 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
   const auto shown = coupon_through_machine({group.design, set, group.conditions, fidelity_}, group.curve.strain,
                                             {.batch_step = group.batch_step});
   if (!shown) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), shown.error().message));
-  const auto end = carried_strain(group.curve);
+  const auto end = carried_strain(group.curve, observations_.reading);
   return end ? tester::cut_at(*shown, *end) : *shown;
 }
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
-                const material::ParameterRanges& ranges) {
-  const std::vector<OtherMaterial> others = other_materials(observations, ranges);
-  Basis basis{
-      .modulus = false, .toughness = false, .coupon = false, .centre = start, .ranges = ranges_over(ranges, others)};
+                const material::ParameterRanges& ranges, const ConstantRules& rules) {
+  const std::vector<OtherMaterial> others = other_materials(observations, ranges, rules);
+  Basis basis{.modulus = false,
+              .toughness = false,
+              .coupon = false,
+              .centre = start,
+              .ranges = ranges_over(ranges, others),
+              .rules = rules};
   material::ModulusVector moduli = to_vector(start.modulus);
   for (const OtherMaterial& other : others) moduli[other.material] = other.modulus_pa;
   basis.centre.modulus = material::modulus_from_vector(moduli);
@@ -63,18 +67,31 @@ Basis basis_for(const Observations& observations, const material::ParameterSet& 
   return basis;
 }
 
-FeatureModel::FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
-                           const FractureSurface* surface)
-    : observations_(observations),
-      basis_(basis),
+FeatureModel::FeatureModel(Observations observations, Basis basis, tester::Fidelity fidelity,
+                           std::shared_ptr<const FractureSurface> surface)
+    : observations_(std::move(observations)),
+      basis_(std::move(basis)),
       fidelity_(fidelity),
-      surface_(surface),
-      rows_of_group_(observations.groups.size()),
-      last_(observations.groups.size()) {
-  for (int i = 0; i < observations.size(); ++i) {
-    const int group = observations.rows[i].group;
+      surface_(std::move(surface)),
+      rows_of_group_(observations_.groups.size()),
+      memory_(std::make_shared<Memory>()) {
+  memory_->last.resize(observations_.groups.size());
+  for (int i = 0; i < observations_.size(); ++i) {
+    const int group = observations_.rows[i].group;
     if (group >= 0) rows_of_group_[group].push_back(i);
   }
+}
+
+FeatureModel FeatureModel::with_surface(std::shared_ptr<const FractureSurface> surface) const {
+  FeatureModel model = *this;
+  model.surface_ = std::move(surface);
+  return model;
+}
+
+FeatureModel FeatureModel::with_basis(Basis basis) const {
+  FeatureModel model = *this;
+  model.basis_ = std::move(basis);
+  return model;
 }
 
 double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
@@ -82,8 +99,8 @@ double FeatureModel::modulus(std::size_t group, const material::ParameterSet& se
   const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
   const std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
-    const std::lock_guard lock(mutex_);
-    if (const auto found = known_.find(key); found != known_.end()) return found->second;
+    const std::lock_guard lock(memory_->mutex);
+    if (const auto found = memory_->known.find(key); found != memory_->known.end()) return found->second;
   }
   double result = 0.0;
   if (g.design.layout()) {
@@ -93,8 +110,8 @@ double FeatureModel::modulus(std::size_t group, const material::ParameterSet& se
     if (!pulled) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), pulled.error().message));
     result = pulled->modulus_pa;
   }
-  const std::lock_guard lock(mutex_);
-  return known_.emplace(key, result).first->second;
+  const std::lock_guard lock(memory_->mutex);
+  return memory_->known.emplace(key, result).first->second;
 }
 
 std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group,
@@ -103,14 +120,14 @@ std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t grou
   const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
   std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
-    const std::lock_guard lock(mutex_);
-    if (last_[group].key == key) return last_[group].probe;
+    const std::lock_guard lock(memory_->mutex);
+    if (memory_->last[group].key == key) return memory_->last[group].probe;
   }
   auto solved = tester::ModulusProbe::at(simulation);
   if (!solved) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), solved.error().message));
   auto shared = std::make_shared<const tester::ModulusProbe>(*std::move(solved));
-  const std::lock_guard lock(mutex_);
-  last_[group] = {std::move(key), shared};
+  const std::lock_guard lock(memory_->mutex);
+  memory_->last[group] = {std::move(key), shared};
   return shared;
 }
 
@@ -125,11 +142,11 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
                              Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
-  FeatureValues values = tensile_features(coupon_curve(g, set));
+  FeatureValues values = tensile_features(coupon_curve(g, set), observations_.reading);
   if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: no information on stresses
     material::ParameterSet without = set;
     without.extensions.erase("toe_slack");
-    values = tensile_features(coupon_curve(g, without));
+    values = tensile_features(coupon_curve(g, without), observations_.reading);
   }
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[row].feature);

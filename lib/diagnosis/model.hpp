@@ -17,16 +17,18 @@
 namespace nacre::diagnosis {
 
 /// The testers as a function of coordinates over the rows of a data set, measurement side included: moduli of layouts
-/// by the static tester itself, coupons by the material point, fracture tests by the emulator. Thread-safe; remembers
-/// moduli.
+/// by the static tester itself, coupons by the material point, fracture tests by the emulator. A value: copies share
+/// the moduli that they remember. Thread-safe.
 class FeatureModel {
  public:
-  /// `observations` must outlive the model; `surface` may learn more while the model lives; without one fracture rows
-  /// are predicted as 0.
-  FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
-               const FractureSurface* surface = nullptr);
+  /// Of the observations it keeps groups and rows; without a surface fracture rows are predicted as 0.
+  FeatureModel(Observations observations, Basis basis, tester::Fidelity fidelity,
+               std::shared_ptr<const FractureSurface> surface = nullptr);
+  /// The same with a surface that has learnt more, or with other ranges.
+  FeatureModel with_surface(std::shared_ptr<const FractureSurface> surface) const;
+  FeatureModel with_basis(Basis basis) const;
   const Basis& basis() const { return basis_; }
-  const FractureSurface* surface() const { return surface_; }
+  const FractureSurface* surface() const { return surface_.get(); }
   int size() const { return observations_.size(); }  ///< rows
   CoordinateMap map(std::span<const std::string> effects) const { return CoordinateMap(basis_, effects); }
   CoordinateMap base_map() const { return CoordinateMap(basis_, {}); }
@@ -61,18 +63,22 @@ class FeatureModel {
   void put_constants(const material::ModulusParameters& of_layouts, const material::ModulusParameters& of_coupons,
                      Eigen::Ref<Eigen::VectorXd> rows) const;
 
-  const Observations& observations_;
-  Basis basis_;
-  tester::Fidelity fidelity_;
-  const FractureSurface* surface_;
-  std::vector<std::vector<int>> rows_of_group_;
-  mutable std::mutex mutex_;
-  mutable std::unordered_map<std::string, double> known_;
   struct LastProbe {
     std::string key;
     std::shared_ptr<const tester::ModulusProbe> probe;
   };
-  mutable std::vector<LastProbe> last_;  ///< per group
+  struct Memory {
+    std::mutex mutex;
+    std::unordered_map<std::string, double> known;  ///< moduli before the machine, by simulation
+    std::vector<LastProbe> last;                    ///< per group
+  };
+
+  Observations observations_;
+  Basis basis_;
+  tester::Fidelity fidelity_;
+  std::shared_ptr<const FractureSurface> surface_;
+  std::vector<std::vector<int>> rows_of_group_;
+  std::shared_ptr<Memory> memory_;
 };
 
 /// The curve of a homogeneous coupon as the machine records it, at the strains that it records (or is to run through).
@@ -83,6 +89,6 @@ Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, c
 /// Blocks of base constants that these observations need, in `ranges`, stretched over what specimens of other materials
 /// measured (other_materials.hpp); constants that are not searched from `start`.
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
-                const material::ParameterRanges& ranges);
+                const material::ParameterRanges& ranges, const ConstantRules& rules);
 
 }  // namespace nacre::diagnosis

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
+#include "diagnosis/shared_discretisation.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -21,7 +19,7 @@ Anchor anchor_without(const Evidence& evidence, const FittedModel& model, std::s
       evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
   std::vector<std::string> others = evidence.effects;
   std::erase(others, anchor.fit.effects.front());
-  anchor.signatures = signatures_on(evidence.model, anchor.fit, others);
+  anchor.signatures = signatures_on(evidence.model, anchor.fit, others, evidence.settings.procedure.fit.sizes);
   anchor.directions = contrast_directions(evidence.observations, anchor.fit.predicted);
   anchor.parts = parts_of_rows(evidence.observations);
   return anchor;
@@ -59,24 +57,24 @@ double weakest_signal(const Evidence& evidence, const FittedModel& model) {
 /// model's effect. Effects that are such a contrast themselves, like a drift from batch to batch, are level with it;
 /// others must beat it.
 std::string contrast_instead(const Observations& observations, Anchor anchor, const NoisyData& data,
-                             const FittedModel& model) {
-  for (ContrastDirection& law : smooth_law_directions(observations, anchor.fit.predicted))
+                             const FittedModel& model, const NameRules& rules) {
+  for (ContrastDirection& law : smooth_law_directions(observations, anchor.fit.predicted, rules.powers))
     anchor.directions.push_back(std::move(law));
-  const std::vector<double> by_contrasts = anchor_statistics(anchor, data).contrasts;
+  const std::vector<double> by_contrasts = anchor_statistics(anchor, data, rules.imitated).contrasts;
   if (by_contrasts.empty()) return {};
   const auto most = std::ranges::max_element(by_contrasts);
   const double lead = std::pow(*most, 2) - (anchor.fit.chi2 - model.chi2);
-  return lead > kContrastTie ? anchor.directions[most - by_contrasts.begin()].name : std::string();
+  return lead > rules.contrast_tie ? anchor.directions[most - by_contrasts.begin()].name : std::string();
 }
 
 /// A condition of the specimens, one factor on which does as well as the effect; empty when none does.
 std::string condition_instead(const Observations& observations, Anchor anchor, const NoisyData& data,
-                              const FittedModel& model) {
+                              const FittedModel& model, const NameRules& rules) {
   anchor.directions = even_directions(observations);
-  const std::vector<double> by_factors = anchor_statistics(anchor, data).contrasts;
+  const std::vector<double> by_factors = anchor_statistics(anchor, data, rules.imitated).contrasts;
   for (std::size_t i = 0; i < by_factors.size(); ++i) {
     const double lead = anchor.fit.chi2 - model.chi2 - std::pow(by_factors[i], 2);
-    if (lead < kEvenLead) return anchor.directions[i].name;
+    if (lead < rules.even_lead) return anchor.directions[i].name;
   }
   return {};
 }
@@ -85,39 +83,35 @@ std::string condition_instead(const Observations& observations, Anchor anchor, c
 
 NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) {
   const Observations& observations = evidence.observations;
+  const NameRules& rules = evidence.settings.procedure.names;
+  const double discrepancy_level = evidence.settings.procedure.levels.discrepancy;
   const NoisyData data{observations.values, Whitener(observations.covariance())};
   const double signal = weakest_signal(evidence, model);
   const int count = static_cast<int>(model.effects.size());
-  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p,
-                  .objection = {}};
+  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p};
   std::string contrast, condition;
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
     const Anchor anchor = anchor_without(evidence, model, effect);
     if (count > 1)
       tests.p_outside = std::max(tests.p_outside, tested_against_discrepancy(evidence, anchor, model.chi2, 1).p);
-    if (contrast.empty()) contrast = contrast_instead(observations, anchor, data, model);
-    if (condition.empty()) condition = condition_instead(observations, anchor, data, model);
+    if (contrast.empty()) contrast = contrast_instead(observations, anchor, data, model, rules);
+    if (condition.empty()) condition = condition_instead(observations, anchor, data, model, rules);
   }
-  const std::string_view its = count > 1 ? "the signature of one of them" : "its signature";
-  if (signal < kNameableSignal) {
-    tests.objection = fmt::format(
-        "{} has a signal-to-noise ratio of only {:.1f}: an unmodelled cause could look the same (a name needs {:.1f}, "
-        "more replicates raise the ratio)",
-        its, signal, kNameableSignal);
+  const auto nearest = [&](Reason reason) { return Finding{.reason = reason, .nearest = model.effects}; };
+  if (signal < rules.nameable_signal()) {
+    tests.objection = nearest(Reason::weak_signal);
+    tests.objection->value = signal;
+    tests.objection->needed = rules.nameable_signal();
   } else if (!contrast.empty()) {
-    tests.objection =
-        fmt::format("the contrast \"{}\" alone explains more: an unmodelled cause acts along it", contrast);
+    tests.objection = nearest(Reason::contrast);
+    tests.objection->along = contrast;
   } else if (!condition.empty()) {
-    tests.objection = fmt::format(
-        "one factor on all specimens of the same {} explains these data as well: an unmodelled cause may act along it "
-        "(homogeneous coupons of each {} would show which)",
-        condition, condition);
-  } else if (tests.p_outside > kDiscrepancyLevel) {
-    tests.objection = fmt::format(
-        "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, favour "
-        "a "
-        "known effect by as much with probability {:.2f} (a name needs {:.2f} or less)",
-        tests.p_outside, kDiscrepancyLevel);
+    tests.objection = nearest(Reason::condition);
+    tests.objection->along = condition;
+  } else if (tests.p_outside > discrepancy_level) {
+    tests.objection = nearest(Reason::discrepancy);
+    tests.objection->value = tests.p_outside;
+    tests.objection->needed = discrepancy_level;
   }
   return tests;
 }

@@ -21,18 +21,21 @@ using tester::TestKind;
 
 using GroupKey = std::tuple<int, std::string, double, double, double, bool>;
 
-bool is_unloaded_coupon(const SpecimenRecord& specimen) {
-  return specimen.test == TestKind::tensile && is_unloaded(specimen.curve);
+bool is_unloaded_coupon(const SpecimenRecord& specimen, const CurveReading& reading) {
+  return specimen.test == TestKind::tensile && is_unloaded(specimen.curve, reading);
 }
 
-GroupKey key_of(const SpecimenRecord& specimen) {
+GroupKey key_of(const SpecimenRecord& specimen, const CurveReading& reading) {
   const tester::TestConditions& c = specimen.conditions;
-  return {
-      static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm,
-      is_unloaded_coupon(specimen)};
+  return {static_cast<int>(specimen.test),
+          specimen.design.name(),
+          c.orientation_deg,
+          c.strain_rate_per_s,
+          c.thickness_mm,
+          is_unloaded_coupon(specimen, reading)};
 }
 
-FeatureValues features_of(const SpecimenRecord& specimen) {
+FeatureValues features_of(const SpecimenRecord& specimen, const CurveReading& reading) {
   FeatureValues values;
   switch (specimen.test) {
     case TestKind::modulus:
@@ -40,12 +43,12 @@ FeatureValues features_of(const SpecimenRecord& specimen) {
         value_of(values, Feature::log_modulus) = std::log(*modulus);
       break;
     case TestKind::toughness:
-      values = fracture_features(specimen.curve);
+      values = fracture_features(specimen.curve, reading);
       if (const auto toughness = measurement::toughness_of(specimen); toughness && *toughness > 0.0)
         value_of(values, Feature::log_toughness) = std::log(*toughness);
       break;
     case TestKind::tensile:
-      values = tensile_features(specimen.curve);
+      values = tensile_features(specimen.curve, reading);
       break;
   }
   return values;
@@ -67,23 +70,23 @@ bool is_included(const SpecimenRecord& specimen) {
 
 /// Coupons of one group are stopped at different strains: all are read as far as the first that stops. Nothing when one
 /// has no curve that can be cut.
-std::optional<double> common_strain(const std::vector<Measured>& replicates) {
+std::optional<double> common_strain(const std::vector<Measured>& replicates, const CurveReading& reading) {
   std::optional<double> common;
   for (const Measured& each : replicates) {
-    const auto strain = carried_strain(each.specimen->curve);
+    const auto strain = carried_strain(each.specimen->curve, reading);
     if (!strain) return std::nullopt;
     common = std::min(common.value_or(*strain), *strain);
   }
   return common;
 }
 
-Observation mean_of(const std::vector<Measured>& replicates) {
+Observation mean_of(const std::vector<Measured>& replicates, const CurveReading& reading) {
   Observation group;
   const SpecimenRecord& first = *replicates.front().specimen;
   group.design = first.design;
   group.test = first.test;
   group.conditions = first.conditions;
-  group.unloaded = is_unloaded_coupon(first);
+  group.unloaded = is_unloaded_coupon(first, reading);
   group.replicates = static_cast<int>(replicates.size());
   int with_order = 0;
   for (const Measured& each : replicates) {
@@ -150,9 +153,9 @@ bool has_constants_of_both(const std::vector<Observation>& groups) {
 }
 
 /// Scatter of every test, and of each material's coupons where their replicates determine it.
-void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
-  constexpr int kLeastDof = 5;
-  for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t));
+void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups,
+                 const NoiseRules& rules) {
+  for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t), rules);
   std::map<std::string, std::size_t> own;
   for (DataRow& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
@@ -160,8 +163,8 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
     const std::string material = observations.groups[row.group].material();
     const auto [place, unknown] = own.emplace(material, row.scatter);
     if (unknown) {
-      ReplicateScatter scatter = pooled_scatter(groups, row.test, material);
-      if (scatter.dof >= kLeastDof) {
+      ReplicateScatter scatter = pooled_scatter(groups, row.test, rules, material);
+      if (scatter.dof >= rules.own_dof) {
         place->second = observations.scatter.size();
         scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
         observations.scatter.push_back(std::move(scatter));
@@ -200,7 +203,7 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
 RowCovariance Observations::row_covariance(int i, int j) const {
   const DataRow &a = rows[i], &b = rows[j];
   RowCovariance covariance;
-  if (a.kind == RowKind::constant && i == j) covariance.fixed = kConstantSd * kConstantSd;
+  if (a.kind == RowKind::constant && i == j) covariance.fixed = constant_sd * constant_sd;
   if (a.kind == RowKind::constant || b.kind == RowKind::constant) return covariance;
   if (a.test != b.test || a.kind != b.kind) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
@@ -247,7 +250,8 @@ Eigen::VectorXd Observations::shared_discretisation(const Eigen::VectorXd& resid
 }
 
 Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_discretisation_sd,
-                     const FractureDiscretisation& fracture) {
+                     const FractureDiscretisation& fracture, const Procedure& procedure) {
+  const CurveReading& reading = procedure.curves;
   // Replicates in the order of their names: the same bits whatever the order of arrival.
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
   const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
@@ -255,13 +259,15 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   double last_batch_step = 0.0;
   for (const SpecimenRecord& specimen : nominal) {
     if (!is_included(specimen)) continue;
-    const FeatureValues features = features_of(specimen);
+    const FeatureValues features = features_of(specimen, reading);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
     const double step = contexts[&specimen - nominal.data()].batch_step;
-    by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, step});
+    by_group[key_of(specimen, reading)].emplace(specimen.specimen, Measured{&specimen, features, step});
     last_batch_step = std::max(last_batch_step, step);
   }
   Observations observations;
+  observations.reading = reading;
+  observations.constant_sd = procedure.noise.constant_sd;
   observations.last_batch_step = last_batch_step;
   observations.discretisation_sd = modulus_discretisation_sd;
   observations.fracture_discretisation = fracture;
@@ -272,11 +278,11 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       groups.back().push_back(measured);
     }
     const bool coupons = groups.back().front().specimen->test == TestKind::tensile;
-    const auto common = coupons ? common_strain(groups.back()) : std::nullopt;
+    const auto common = coupons ? common_strain(groups.back(), reading) : std::nullopt;
     if (common)
       for (Measured& each : groups.back())
-        each.features = tensile_features(tester::cut_at(each.specimen->curve, *common));
-    observations.groups.push_back(mean_of(groups.back()));
+        each.features = tensile_features(tester::cut_at(each.specimen->curve, *common), reading);
+    observations.groups.push_back(mean_of(groups.back(), reading));
     if (common) observations.groups.back().curve = tester::cut_at(observations.groups.back().curve, *common);
   }
   observations.disconnected_batches = disconnected_batches(groups);
@@ -299,13 +305,13 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       values.push_back(0.0);
     }
   }
-  const std::vector<HistoryRow> history = history_rows(groups);
+  const std::vector<HistoryRow> history = history_rows(groups, procedure.noise.fewest_for_history);
   for (const HistoryRow& each : history) {
     observations.rows.push_back(each.row);
     values.push_back(each.value);
   }
   observations.batch_offsets = batch_offsets(history, observations.rows.size());
-  put_scatter(observations, groups);
+  put_scatter(observations, groups, procedure.noise);
   observations.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return observations;
 }

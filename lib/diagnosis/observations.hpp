@@ -9,6 +9,8 @@
 
 #include "diagnosis/features.hpp"
 #include "diagnosis/fracture_discretisation.hpp"
+#include "diagnosis/material_constants.hpp"
+#include "diagnosis/procedure.hpp"
 #include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
@@ -36,12 +38,6 @@ enum class RowKind {
   print_order,  ///< change per specimen printed, inside batches
   constant,     ///< log of E of a base material in layouts over E of its homogeneous specimens, expected to be 0
 };
-
-/// Standard deviation of a row of RowKind::constant: the +-20 % of Table A.2 about the values of Table A.1, taken for
-/// 90 %.
-inline constexpr double kConstantSd = 0.11;
-/// Materials that have one, in the order of material::ModulusVector.
-inline constexpr std::array<std::string_view, 3> kConstantMaterials = {"soft", "rigid", "interface"};
 
 /// One row of the data.
 struct DataRow {
@@ -113,6 +109,8 @@ struct CovarianceParts {
 /// The data of a measurement set: groups sorted by test, design and conditions; rows by group and feature, then those
 /// of history.
 struct Observations {
+  CurveReading reading;      ///< of its curves, and of those that a model predicts for it
+  double constant_sd = 0.0;  ///< of a row of RowKind::constant
   std::vector<Observation> groups;
   std::vector<DataRow> rows;
   Eigen::VectorXd values;  ///< per row
@@ -157,7 +155,7 @@ struct Observations {
 /// alike, and how much voxels may differ from the bulk (thesis 3.2.4). Notched homogeneous specimens are left out:
 /// effective moduli of fracture tests are no bulk constants.
 Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_discretisation_sd,
-                     const FractureDiscretisation& fracture);
+                     const FractureDiscretisation& fracture, const Procedure& procedure);
 
 /// The conditions of most upright specimens of a test; the default where there are none.
 tester::TestConditions usual_conditions(const Observations& observations, tester::TestKind test);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "diagnosis/coordinates.hpp"
 
 namespace nacre::diagnosis {
@@ -16,8 +14,7 @@ std::optional<double> log_modulus(const Observations& observations, int material
   int groups = 0;
   for (const Observation& group : observations.groups) {
     if (group.material() != kConstantMaterials[material] || group.test == tester::TestKind::toughness) continue;
-    const Feature feature =
-        group.test == tester::TestKind::modulus ? Feature::log_modulus : Feature::log_tangent_10;
+    const Feature feature = group.test == tester::TestKind::modulus ? Feature::log_modulus : Feature::log_tangent_10;
     if (const auto& log_e = value_of(group.features, feature)) sum += *log_e, ++groups;
   }
   if (groups == 0) return std::nullopt;
@@ -37,11 +34,12 @@ bool is_told_by_own_specimens(const Observations& observations, int material) {
   return log_modulus(observations, material).has_value();
 }
 
-std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges) {
+std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
+                                           const ConstantRules& rules) {
   std::vector<OtherMaterial> found;
   for (int material = 0; material < static_cast<int>(kConstantMaterials.size()); ++material) {
     const std::optional<double> log_e = log_modulus(observations, material);
-    const auto [low, high] = searched_bounds(ranges.base_modulus[material], true);
+    const auto [low, high] = searched_bounds(ranges.base_modulus[material], true, rules);
     if (log_e && (*log_e < low || *log_e > high)) found.push_back({material, std::exp(*log_e)});
   }
   return found;
@@ -53,16 +51,6 @@ material::ParameterRanges ranges_over(material::ParameterRanges ranges, const st
     stretch_over(ranges.microstructure_modulus[other.material], other.modulus_pa);
   }
   return ranges;
-}
-
-std::string in_words(const std::vector<OtherMaterial>& materials) {
-  std::string text;
-  for (const OtherMaterial& other : materials)
-    text += fmt::format(
-        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
-        "it, or an error of the machine): layouts are judged against what was measured.",
-        kConstantMaterials[other.material], other.modulus_pa);
-  return text;
 }
 
 }  // namespace nacre::diagnosis

@@ -1,7 +1,6 @@
 #pragma once
 // Materials other than the inks whose ranges are given: what their own specimens measured counts instead.
 
-#include <string>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
@@ -9,25 +8,16 @@
 
 namespace nacre::diagnosis {
 
-/// A base material whose homogeneous specimens measured an E outside the ranges of the inks, widened
-/// three-fold as those of a fit are.
-struct OtherMaterial {
-  int material = 0;         ///< index in kConstantMaterials
-  double modulus_pa = 0.0;  ///< geometric mean over the groups of its specimens: E, of coupons the first slope
-};
-
 /// Whether homogeneous specimens of a base material tell its E.
 bool is_told_by_own_specimens(const Observations& observations, int material);
 
 /// Base materials whose E by their own specimens lies outside their range in Table A.1 (or that of `ranges`), widened
 /// three-fold (CoordinateMap).
-std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges);
+std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
+                                           const ConstantRules& rules);
 
 /// `ranges` with those of E of these materials stretched over what was measured: the inks stay possible, where the
 /// machine is wrong.
 material::ParameterRanges ranges_over(material::ParameterRanges ranges, const std::vector<OtherMaterial>& materials);
-
-/// A sentence with a space in front; empty where there are none.
-std::string in_words(const std::vector<OtherMaterial>& materials);
 
 }  // namespace nacre::diagnosis

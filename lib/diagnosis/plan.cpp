@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/data.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
+#include "diagnosis/signatures.hpp"
+#include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
 #include "tester/modulus.hpp"
 #include "tester/tensile.hpp"
@@ -21,13 +23,6 @@ namespace {
 
 using measurement::SpecimenRecord;
 using tester::TestKind;
-
-constexpr int kAddedReplicates = 3;
-/// Shares of an effect's range at which a plan searches for the smallest visible one: closer than those of a diagnosis,
-/// since flow and effects like it have no signature at all until they begin.
-constexpr double kPlannedSizes[] = {0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.45, 0.6};
-constexpr int kPlannedTypical = 6;  ///< the typical size of a diagnosis among them
-static_assert(kPlannedSizes[kPlannedTypical] == kSizes[kTypicalSize]);
 
 /// Values for specimens that have none: those of the start parameters.
 void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
@@ -84,30 +79,14 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   return specimen;
 }
 
-/// The bundle that a test belongs to, in words.
-std::string bundle_of(const PossibleTest& test) {
-  switch (test.kind) {
-    case AddedTest::checkerboard:
-      return "checkerboards of period 1, 2 and 5";
-    case AddedTest::laminate:
-      return "laminates of period 1, 2 and 5, across and along the pull";
-    case AddedTest::homogeneous:
-      return "homogeneous coupons at several rates, unloaded on the way";
-    case AddedTest::twin:
-      break;
-  }
-  return fmt::format("{}, {} tests", test.words, tester::to_string(test.test));
-}
-
 /// Tests that a person would order together, by the name of their bundle.
-std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations) {
-  constexpr std::size_t kMost = 3;
+std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations, const TestRules& rules) {
   std::map<std::string, std::vector<PossibleTest>> result;
-  for (const PossibleTest& test : possible_tests(observations)) {
-    const bool twin = test.kind == AddedTest::twin;
+  for (const PossibleTest& test : possible_tests(observations, rules)) {
+    const bool twin = is_twin(test.way.kind);
     if (!twin && test.test == TestKind::toughness) continue;  // a modulus gives the same information for less
-    auto& tests = result[bundle_of(test)];
-    if (!twin || tests.size() < kMost) tests.push_back(test);
+    auto& tests = result[bundle_in_words(test)];
+    if (!twin || tests.size() < static_cast<std::size_t>(rules.bundle)) tests.push_back(test);
   }
   return result;
 }
@@ -115,23 +94,26 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
 /// The design matrix of the linear model: derivatives of all rows by the base constants (base.jacobian) and signatures
 /// of all acting effects, with the covariance of the rows. Every subset of rows is judged by its part of it.
 struct DesignMatrix {
-  const Observations& observations;
+  Observations observations;
+  Procedure procedure;
   FittedModel base;
   Eigen::MatrixXd covariance;
   std::vector<Signature> signatures = {};
 };
 
 /// Base and covariance at the start parameters, with the scatter that is assumed.
-DesignMatrix design_matrix_of(Workbench& workbench, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
-  Observations& observations = workbench.observations();
-  for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
-  const CoordinateMap map = workbench.model().base_map();
-  FittedModel base = linearised(workbench.model(), {}, map.coordinates(settings.start));
+DesignMatrix design_matrix_of(const Data& data, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+  Observations observations = data.observations;
+  for (ReplicateScatter& each : observations.scatter)
+    each.covariance = covariance_of(scatter, settings.procedure.noise);
+  const CoordinateMap map = data.model.base_map();
+  FittedModel base = linearised(data.model, {}, map.coordinates(settings.start));
   if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
-    observations.discretisation_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
+    observations.discretisation_shared = settings.floor.mesh_amplitude * data.model.mesh_change(map, base.u);
     observations.discretisation_sd = settings.floor.mesh_remainder_sd;
   }
-  return {observations, std::move(base), observations.covariance()};
+  const Eigen::MatrixXd covariance = observations.covariance();
+  return {std::move(observations), settings.procedure, std::move(base), covariance};
 }
 
 /// Without a search for the constants: those that are given are the truth.
@@ -141,10 +123,11 @@ DiagnosisSettings as_given(DiagnosisSettings settings) {
 }
 
 /// Cuts coupons of both at the end of the shorter curve: how far somebody pulled is no signature of a cause.
-void cut_at_common_strain(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenRecord>& changed) {
+void cut_at_common_strain(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenRecord>& changed,
+                          const CurveReading& reading) {
   for (std::size_t i = 0; i < std::min(specimens.size(), changed.size()); ++i) {
     tester::Curve &one = specimens[i].curve, &other = changed[i].curve;
-    if (specimens[i].test != TestKind::tensile || one.empty() || other.empty() || is_unloaded(one)) continue;
+    if (specimens[i].test != TestKind::tensile || one.empty() || other.empty() || is_unloaded(one, reading)) continue;
     const double strain = std::min(one.strain.back(), other.strain.back());
     one = tester::cut_at(one, strain);
     other = tester::cut_at(other, strain);
@@ -154,7 +137,7 @@ void cut_at_common_strain(std::vector<SpecimenRecord>& specimens, std::vector<Sp
 /// Signatures of all effects in some rows, whitened and projected off what the base imitates there; zero where the
 /// effect would be no candidate on these rows alone.
 struct PlannedSignatures {
-  std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
+  std::vector<Eigen::MatrixXd> projected;  ///< rows x TestRules::planned_sizes, per signature
   std::vector<double> absorption;          ///< at a typical size
 };
 
@@ -162,13 +145,14 @@ PlannedSignatures planned_signatures_of(const DesignMatrix& matrix, const std::v
   const FittedModel base = matrix.base.restricted(rows);
   const Whitener whitener(matrix.covariance(rows, rows));
   PlannedSignatures planned;
-  const auto sizes = static_cast<Eigen::Index>(std::size(kPlannedSizes));
+  const TestRules& rules = matrix.procedure.tests;
+  const auto sizes = static_cast<Eigen::Index>(rules.planned_sizes.size());
   for (const Signature& signature : matrix.signatures) {
     Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, sizes));
     const Eigen::VectorXd most = signature.changes.leftCols(sizes).cwiseAbs().rowwise().maxCoeff();
     if (!has_signature(*material::find_effect(signature.effect), most, matrix.observations, rows)) changes.setZero();
     planned.projected.push_back(projected_signatures(base, changes, whitener));
-    planned.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
+    planned.absorption.push_back(signature_size(base, changes.col(rules.planned_typical), whitener).absorption());
   }
   return planned;
 }
@@ -176,13 +160,15 @@ PlannedSignatures planned_signatures_of(const DesignMatrix& matrix, const std::v
 /// Effect k as a diagnosis would judge it at every size: signal, distance to the nearest rival of typical size.
 PlannedEffect judged(PlannedEffect planned, const DesignMatrix& matrix, const PlannedSignatures& signatures,
                      std::size_t k) {
+  const TestRules& rules = matrix.procedure.tests;
+  const NameRules& names = matrix.procedure.names;
   std::vector<double> signals, distance;
-  for (std::size_t i = 0; i < std::size(kPlannedSizes); ++i) {
+  for (std::size_t i = 0; i < rules.planned_sizes.size(); ++i) {
     const auto own = signatures.projected[k].col(static_cast<Eigen::Index>(i));
     double nearest = 0.0;
     std::string rival;
     for (std::size_t j = 0; j < signatures.projected.size(); ++j) {
-      const auto other = signatures.projected[j].col(kPlannedTypical);
+      const auto other = signatures.projected[j].col(rules.planned_typical);
       const double lengths = own.norm() * other.norm();
       if (j == k || lengths < 1e-6) continue;
       const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
@@ -190,20 +176,23 @@ PlannedEffect judged(PlannedEffect planned, const DesignMatrix& matrix, const Pl
     }
     signals.push_back(own.norm());
     distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
-    if (i == kPlannedTypical) planned.nearest_rival = rival, planned.rival_cosine = nearest;
+    if (i == static_cast<std::size_t>(rules.planned_typical))
+      planned.nearest_rival = rival, planned.rival_cosine = nearest;
   }
   planned.absorption = signatures.absorption[k];
-  planned.signal_to_noise = signals[kPlannedTypical];
+  planned.signal_to_noise = signals[rules.planned_typical];
   const material::EffectParameter& parameter = material::find_effect(planned.name)->parameters.front();
   const auto value = [&](const std::optional<double>& strength) {
     return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
   };
   // As a diagnosis decides: a name needs a signature that no collinear effect imitates.
-  const auto nameable = smallest_strength(kPlannedSizes, signals, kNameableSignal),
-             apart = smallest_strength(kPlannedSizes, distance, kToldApart);
-  planned.smallest_seen = value(smallest_strength(kPlannedSizes, signals, kVisibleSignal));
+  const auto nameable = smallest_strength(rules.planned_sizes, signals, names.nameable_signal()),
+             apart = smallest_strength(rules.planned_sizes, distance, names.distinct);
+  planned.smallest_seen = value(smallest_strength(rules.planned_sizes, signals, names.visible_signal));
   planned.smallest_told_apart = nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
-  planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
+  planned.status = planned.smallest_told_apart ? PlanStatus::told_apart
+                   : planned.smallest_seen     ? PlanStatus::visible
+                                               : PlanStatus::invisible;
   return planned;
 }
 
@@ -219,7 +208,7 @@ std::vector<Observation> groups_in(const Observations& observations, const std::
 
 /// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
 std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<Eigen::Index>& rows) {
-  const bool enough = !why_too_few(groups_in(matrix.observations, rows));
+  const bool enough = !too_few(groups_in(matrix.observations, rows), matrix.procedure.noise);
   const PlannedSignatures signatures = planned_signatures_of(matrix, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
@@ -227,7 +216,6 @@ std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<E
     planned.name = effect.name;
     planned.family = effect.family;
     planned.unit = effect.parameters.front().unit;
-    planned.status = "not_shown";
     const auto found = std::ranges::find(matrix.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - matrix.signatures.begin());
     const bool shown = enough && found != matrix.signatures.end() && signatures.projected[k].norm() >= 1e-6;
@@ -244,18 +232,16 @@ double strength_told_apart(const PlannedEffect& effect) {
 }
 
 PlannedAddition compare(const std::string& words, const std::vector<PossibleTest>& tests,
-                        const std::vector<PlannedEffect>& before, const std::vector<PlannedEffect>& after) {
+                        const std::vector<PlannedEffect>& before, const std::vector<PlannedEffect>& after,
+                        const TestRules& rules) {
   PlannedAddition addition;
   addition.words = words;
-  addition.replicates = kAddedReplicates;
-  for (const PossibleTest& test : tests)
-    addition.specimens.push_back(
-        fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(),
-                    test.conditions.orientation_deg, test.conditions.strain_rate_per_s, test.conditions.thickness_mm));
+  addition.replicates = rules.replicates;
+  for (const PossibleTest& test : tests) addition.specimens.push_back(specimen_in_words(test));
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double gained = std::log(strength_told_apart(before[k]) / strength_told_apart(after[k]));
     addition.score += std::max(gained, 0.0);
-    const bool worth_telling = before[k].status != after[k].status || gained > std::log(1.5);
+    const bool worth_telling = before[k].status != after[k].status || gained > std::log(rules.worth_telling);
     if (worth_telling)
       addition.changes.push_back({before[k].name, before[k].status, after[k].status, after[k].smallest_told_apart});
   }
@@ -264,22 +250,38 @@ PlannedAddition compare(const std::string& words, const std::vector<PossibleTest
 
 }  // namespace
 
+std::string_view to_string(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::told_apart:
+      return "told_apart";
+    case PlanStatus::visible:
+      return "visible";
+    case PlanStatus::invisible:
+      return "invisible";
+    case PlanStatus::not_shown:
+      break;
+  }
+  return "not_shown";
+}
+
 Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter, bool additions) {
   std::erase_if(specimens, [](const SpecimenRecord& specimen) { return !specimen.valid; });
   fill_in(specimens, settings);
-  const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation);
-  const auto added = additions ? bundles(alone) : std::map<std::string, std::vector<PossibleTest>>{};
+  const TestRules& rules = settings.procedure.tests;
+  const Observations alone =
+      observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, settings.procedure);
+  const auto added = additions ? bundles(alone, rules) : std::map<std::string, std::vector<PossibleTest>>{};
   std::vector<SpecimenRecord> all = specimens, more;
   for (const auto& [words, tests] : added)
     for (const PossibleTest& test : tests)
-      for (int r = 0; r < kAddedReplicates; ++r) more.push_back(specimen_of(test, r));
+      for (int r = 0; r < rules.replicates; ++r) more.push_back(specimen_of(test, r));
   fill_in(more, settings);
   all.insert(all.end(), more.begin(), more.end());
-  Workbench workbench(all, as_given(settings));
-  DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
+  const Data data = data_of(all, as_given(settings));
+  DesignMatrix matrix = design_matrix_of(data, settings, scatter);
   const Observations& observations = matrix.observations;
-  matrix.signatures = signatures_on(workbench.model(), matrix.base, workbench.effects(), kPlannedSizes);
+  matrix.signatures = signatures_on(data.model, matrix.base, data.effects, rules.planned_sizes);
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
     const auto is_planned = [&](const Observation& group) {
@@ -306,10 +308,10 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   Plan plan;
   plan.specimens = static_cast<int>(specimens.size());
   plan.groups = static_cast<int>(alone.groups.size());
-  plan.too_few = why_too_few(alone.groups).value_or("");
+  plan.too_few = too_few(alone.groups, settings.procedure.noise);
   plan.effects = judge(matrix, rows_with({}));
   for (const auto& [words, tests] : added) {
-    PlannedAddition addition = compare(words, tests, plan.effects, judge(matrix, rows_with(tests)));
+    PlannedAddition addition = compare(words, tests, plan.effects, judge(matrix, rows_with(tests)), rules);
     if (!addition.changes.empty()) plan.additions.push_back(std::move(addition));
   }
   std::stable_sort(plan.additions.begin(), plan.additions.end(),
@@ -319,51 +321,15 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
 
 double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<SpecimenRecord> changed,
                         const DiagnosisSettings& settings, const AssumedScatter& scatter) {
-  cut_at_common_strain(specimens, changed);
-  Workbench workbench(specimens, as_given(settings));
-  const DesignMatrix matrix = design_matrix_of(workbench, settings, scatter);
-  const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_discretisation);
+  cut_at_common_strain(specimens, changed, settings.procedure.curves);
+  const Data data = data_of(specimens, as_given(settings));
+  const DesignMatrix matrix = design_matrix_of(data, settings, scatter);
+  const Observations other =
+      observe(changed, settings.floor.log_modulus_sd, settings.fracture_discretisation, settings.procedure);
   if (other.size() != matrix.observations.size())
     throw InputError::format("the changed specimens show {} features, expected {}", other.size(),
                              matrix.observations.size());
   return signature_size(matrix.base, other.values - matrix.observations.values, Whitener(matrix.covariance)).projected;
-}
-
-std::string to_json(const Plan& plan) {
-  using nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
-  };
-  ordered_json effects = ordered_json::array(), additions = ordered_json::array();
-  for (const PlannedEffect& e : plan.effects) {
-    effects.push_back({{"name", e.name},
-                       {"family", e.family},
-                       {"status", e.status},
-                       {"smallest_seen", or_null(e.smallest_seen)},
-                       {"smallest_told_apart", or_null(e.smallest_told_apart)},
-                       {"unit", e.unit},
-                       {"absorption", e.absorption},
-                       {"signal_to_noise", e.signal_to_noise},
-                       {"nearest_rival", e.nearest_rival},
-                       {"rival_cosine", e.rival_cosine}});
-  }
-  for (const PlannedAddition& a : plan.additions) {
-    ordered_json changes = ordered_json::array();
-    for (const auto& c : a.changes)
-      changes.push_back(
-          {{"effect", c.effect}, {"from", c.from}, {"to", c.to}, {"smallest_told_apart", or_null(c.told_apart_from)}});
-    additions.push_back({{"words", a.words},
-                         {"specimens", a.specimens},
-                         {"replicates", a.replicates},
-                         {"score", a.score},
-                         {"changes", changes}});
-  }
-  return ordered_json{{"specimens", plan.specimens},
-                      {"groups", plan.groups},
-                      {"too_few", plan.too_few},
-                      {"effects", effects},
-                      {"additions", additions}}
-      .dump(2);
 }
 
 }  // namespace nacre::diagnosis

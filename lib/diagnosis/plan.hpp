@@ -6,17 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/scatter.hpp"
 #include "diagnosis/settings.hpp"
 #include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 
+enum class PlanStatus {
+  told_apart,  ///< can be named
+  visible,     ///< but collinear with a rival
+  invisible,
+  not_shown,  ///< the specimens have no signature of it
+};
+std::string_view to_string(PlanStatus status);
+
 /// One effect in a plan. Sizes are values of the effect's first parameter, in its unit.
 struct PlannedEffect {
   std::string name, family, unit;
-  std::string status;                   ///< told_apart, visible (but collinear with a rival), invisible, not_shown
-  std::optional<double> smallest_seen;  ///< from here on it is distinguished from none with 5 % error
+  PlanStatus status = PlanStatus::not_shown;
+  std::optional<double> smallest_seen;        ///< from here on it is distinguished from none with 5 % error
   std::optional<double> smallest_told_apart;  ///< from here on it is named: distinguished from every rival, with a
                                               ///< signature that no unmodelled cause has
   double absorption = 0.0;                    ///< share of its signature that the base imitates, at a typical size
@@ -31,8 +40,9 @@ struct PlannedAddition {
   std::vector<std::string> specimens;  ///< design, test and conditions of each, in words
   int replicates = 3;
   struct Change {
-    std::string effect, from, to;           ///< status before and after
-    std::optional<double> told_apart_from;  ///< smallest_told_apart after
+    std::string effect;
+    PlanStatus from = PlanStatus::not_shown, to = PlanStatus::not_shown;  ///< before and after
+    std::optional<double> told_apart_from;                                ///< smallest_told_apart after
   };
   std::vector<Change> changes;
   double score = 0.0;  ///< sum over effects of log of the factor by which smallest_told_apart falls
@@ -42,7 +52,7 @@ struct Plan {
   std::vector<PlannedEffect> effects;      ///< in the order of material::effect_library()
   std::vector<PlannedAddition> additions;  ///< the most helpful first; those that change nothing are left out
   int specimens = 0, groups = 0;
-  std::string too_few;  ///< why the set is too small for a diagnosis; empty: it is large enough
+  std::optional<TooFew> too_few;  ///< the set is too small for a diagnosis
 };
 
 /// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters
@@ -59,8 +69,5 @@ Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const Di
 double signal_of_change(std::vector<measurement::SpecimenRecord> specimens,
                         std::vector<measurement::SpecimenRecord> changed, const DiagnosisSettings& settings,
                         const AssumedScatter& scatter);
-
-/// The JSON document of `nacre diagnose --plan --json`.
-std::string to_json(const Plan& plan);
 
 }  // namespace nacre::diagnosis

@@ -7,8 +7,6 @@
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "measurement/conditions.hpp"
 #include "pattern/coupons.hpp"
 
@@ -17,9 +15,7 @@ namespace {
 
 using tester::TestKind;
 
-constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
-constexpr int kConditionTwins = 3;      // designs of a test that are also tested under other conditions
-constexpr double kCouponStrain = 0.02;  // also in the words of possible_tests()
+constexpr double kCouponStrain = 0.02;  // also in in_words(PossibleTest)
 
 /// Groups of layouts that are not coupons, those of most replicates first.
 std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
@@ -33,69 +29,66 @@ std::vector<const Observation*> layouts_most_measured_first(const Observations& 
 /// A rate that was not measured yet.
 struct OtherRate {
   double strain_rate_per_s = 0.0;
-  std::string_view words;  ///< "ten times as fast"
+  AddedTest twin, coupon;  ///< of layouts and of coupons at it
 };
 
 /// Ten times the usual rate, and where measured rates lie far apart the middle of the widest gap: relaxation with a
 /// time in between shows there.
-std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s) {
-  constexpr double kFarApart = 100.0;
-  std::vector<OtherRate> rates = {{kSecondRate * usual_per_s, "ten times as fast"}};
+std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s,
+                                   const TestRules& rules) {
+  std::vector<OtherRate> rates = {{rules.second_rate * usual_per_s, AddedTest::faster_twin, AddedTest::faster_coupon}};
   std::set<double> measured;
   for (const Observation& g : observations.groups)
     if (g.test == test) measured.insert(g.conditions.strain_rate_per_s);
-  double widest = kFarApart, middle = 0.0;
+  double widest = rules.far_apart, middle = 0.0;
   for (auto rate = measured.begin(); rate != measured.end() && std::next(rate) != measured.end(); ++rate)
     if (const double gap = *std::next(rate) / *rate; gap > widest) widest = gap, middle = *rate * std::sqrt(gap);
-  if (middle > 0.0) rates.push_back({middle, "at a rate between those measured"});
+  if (middle > 0.0) rates.push_back({middle, AddedTest::twin_between_rates, AddedTest::coupon_between_rates});
   return rates;
 }
 
 /// Turned twins of all layouts; faster and thinner ones of the most measured of each test.
-std::vector<PossibleTest> twins(const Observations& observations) {
+std::vector<PossibleTest> twins(const Observations& observations, const TestRules& rules) {
   std::vector<PossibleTest> possible;
   const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
   std::map<TestKind, int> twins_of;
   for (const Observation* g : layouts) {
-    const auto twin = [&](std::string_view words) -> tester::TestConditions& {
-      possible.push_back({AddedTest::twin, g->design, g->test, g->conditions, std::string(words)});
+    const auto twin = [&](AddedTest kind) -> tester::TestConditions& {
+      possible.push_back({{kind}, g->design, g->test, g->conditions});
       return possible.back().conditions;
     };
     const double orientation_deg = g->conditions.orientation_deg;
-    twin("a twin printed turned by 90 degrees").orientation_deg = orientation_deg == 0.0 ? 90.0 : 0.0;
-    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= kConditionTwins) continue;
-    for (const OtherRate& rate : other_rates(observations, g->test, g->conditions.strain_rate_per_s))
-      twin(fmt::format("a twin pulled {}", rate.words)).strain_rate_per_s = rate.strain_rate_per_s;
-    twin("a twin of half the thickness").thickness_mm *= kSecondThickness;
+    twin(AddedTest::turned_twin).orientation_deg = orientation_deg == 0.0 ? 90.0 : 0.0;
+    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= rules.condition_twins)
+      continue;
+    for (const OtherRate& rate : other_rates(observations, g->test, g->conditions.strain_rate_per_s, rules))
+      twin(rate.twin).strain_rate_per_s = rate.strain_rate_per_s;
+    twin(AddedTest::thinner_twin).thickness_mm *= rules.second_thickness;
   }
   return possible;
 }
 
 std::vector<PossibleTest> layout_coupons(TestKind test, const tester::TestConditions& conditions) {
   std::vector<PossibleTest> possible;
-  const auto laminate = [&](pattern::LayerDirection direction, int period, std::string_view way) {
-    possible.push_back({AddedTest::laminate, pattern::laminate(direction, period, period), test, conditions,
-                        fmt::format("a laminate of period {} {} the pull", period, way)});
+  const auto laminate = [&](pattern::LayerDirection direction, int period, AddedTest kind) {
+    possible.push_back({{kind, period}, pattern::laminate(direction, period, period), test, conditions});
   };
   for (const int period : {1, 2, 5}) {
-    possible.push_back({AddedTest::checkerboard, pattern::checkerboard(period), test, conditions,
-                        fmt::format("a checkerboard of period {}", period)});
-    laminate(pattern::LayerDirection::along_x, period, "across");
-    laminate(pattern::LayerDirection::along_y, period, "along");
+    possible.push_back({{AddedTest::checkerboard, period}, pattern::checkerboard(period), test, conditions});
+    laminate(pattern::LayerDirection::along_x, period, AddedTest::laminate_across);
+    laminate(pattern::LayerDirection::along_y, period, AddedTest::laminate_along);
   }
   return possible;
 }
 
-std::vector<PossibleTest> homogeneous_coupons(const Observations& observations) {
+std::vector<PossibleTest> homogeneous_coupons(const Observations& observations, const TestRules& rules) {
   const tester::TestConditions usual = usual_conditions(observations, TestKind::tensile);
-  std::vector<OtherRate> rates = other_rates(observations, TestKind::tensile, usual.strain_rate_per_s);
-  rates.insert(rates.begin(), {usual.strain_rate_per_s, ""});
+  std::vector<OtherRate> rates = other_rates(observations, TestKind::tensile, usual.strain_rate_per_s, rules);
+  rates.insert(rates.begin(), {usual.strain_rate_per_s, AddedTest::turned_twin, AddedTest::coupon});
   std::vector<PossibleTest> possible;
   for (const double fraction : {1.0, 0.5, 0.0}) {
     for (const OtherRate& rate : rates) {
-      possible.push_back({AddedTest::homogeneous, pattern::Mixture{fraction}, TestKind::tensile, usual,
-                          fmt::format("a homogeneous coupon pulled {}{}to 2 % strain, back to 0.5 % and on", rate.words,
-                                      rate.words.empty() ? "" : " ")});
+      possible.push_back({{rate.coupon}, pattern::Mixture{fraction}, TestKind::tensile, usual});
       possible.back().conditions.strain_rate_per_s = rate.strain_rate_per_s;
     }
   }
@@ -103,6 +96,8 @@ std::vector<PossibleTest> homogeneous_coupons(const Observations& observations) 
 }
 
 }  // namespace
+
+bool is_twin(AddedTest kind) { return kind <= AddedTest::thinner_twin; }
 
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
 
@@ -128,13 +123,13 @@ Observation group_of(const PossibleTest& test, int replicates) {
   return group;
 }
 
-std::vector<PossibleTest> possible_tests(const Observations& observations) {
-  std::vector<PossibleTest> possible = twins(observations);
+std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules) {
+  std::vector<PossibleTest> possible = twins(observations, rules);
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
     if (std::ranges::any_of(observations.groups,
                             [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
-  std::ranges::move(homogeneous_coupons(observations), std::back_inserter(possible));
+  std::ranges::move(homogeneous_coupons(observations, rules), std::back_inserter(possible));
   std::vector<PossibleTest> left;
   for (PossibleTest& test : possible) {
     const bool measured =
@@ -145,7 +140,6 @@ std::vector<PossibleTest> possible_tests(const Observations& observations) {
     left.push_back(std::move(test));
     if (observations.last_batch_step == 0.0) continue;
     left.back().batch_step = observations.last_batch_step + 1.0;
-    left.back().words += ", in a new batch";
   }
   return left;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Tests that a laboratory could add to a measurement set.
 
-#include <string>
+#include <compare>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
@@ -9,16 +9,35 @@
 
 namespace nacre::diagnosis {
 
-/// How a test differs from the measured ones.
-enum class AddedTest { twin, checkerboard, laminate, homogeneous };
+/// How a test differs from the measured ones: twins of measured designs, layouts of simple geometry, homogeneous
+/// coupons.
+enum class AddedTest {
+  turned_twin,
+  faster_twin,
+  twin_between_rates,
+  thinner_twin,
+  checkerboard,
+  laminate_across,  ///< the pull
+  laminate_along,
+  coupon,
+  faster_coupon,
+  coupon_between_rates,
+};
+bool is_twin(AddedTest kind);
 
-/// A specimen that could be made and tested, in words.
+/// Tests of one way share the errors of all models there.
+struct TestWay {
+  AddedTest kind = AddedTest::turned_twin;
+  int period = 0;  ///< of a checkerboard or laminate, pixels
+  auto operator<=>(const TestWay&) const = default;
+};
+
+/// A specimen that could be made and tested.
 struct PossibleTest {
-  AddedTest kind = AddedTest::twin;
+  TestWay way;
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  std::string words;        ///< "a twin printed turned by 90 degrees", ...
   double batch_step = 0.0;  ///< of a batch to come; 0 where there is one batch
 };
 
@@ -34,7 +53,7 @@ Observation group_of(const PossibleTest& test, int replicates);
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
 /// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. Tests that were made
 /// already, at these conditions or within their tolerance, are left out.
-std::vector<PossibleTest> possible_tests(const Observations& observations);
+std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules);
 
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: the loading of homogeneous coupons that are ordered.
 tester::Loading coupon_loading();

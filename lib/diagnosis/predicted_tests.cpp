@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "diagnosis/shared_discretisation.hpp"
 #include "measurement/reduction.hpp"
 #include "tester/modulus.hpp"
 #include "tester/toughness.hpp"
@@ -24,8 +25,8 @@ material::ParameterSet parameters_for(const PossibleTest& test, const Coordinate
 }
 
 /// Predictions of a test by a model, one value per feature that it shows.
-FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set,
-                                 tester::Fidelity fidelity) {
+FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set, tester::Fidelity fidelity,
+                                 const CurveReading& reading) {
   FeatureValues values;
   if (test.test == TestKind::modulus) {
     if (const auto result = tester::test_modulus({test.design, simulated_side(set), test.conditions, fidelity}))
@@ -33,12 +34,12 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
           std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
   } else if (test.test == TestKind::tensile) {
     const tester::Curve curve = coupon_curve(test, set, fidelity);
-    if (!curve.empty()) values = tensile_features(curve);
+    if (!curve.empty()) values = tensile_features(curve, reading);
   } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
     sysid::Prediction prediction;
     prediction.toughness_pa = result->toughness_pa;
-    prediction.curve = tester::resampled(measurement::forward_part(result->curve), 128);
-    values = shown_features(prediction, set.extensions);
+    prediction.curve = tester::resampled(measurement::forward_part(result->curve), reading.fracture_points);
+    values = shown_features(prediction, set.extensions, reading);
   }
   return values;
 }
@@ -46,13 +47,13 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
 /// By test and model.
 std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTest>& tests,
                                                     const std::vector<FittedModel>& models, const FeatureModel& model,
-                                                    tester::Fidelity fidelity) {
+                                                    tester::Fidelity fidelity, const CurveReading& reading) {
   std::vector<std::vector<FeatureValues>> seen(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(tests.size() * models.size(), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),
                       m = static_cast<std::size_t>(job) % models.size();
     const CoordinateMap map = model.map(models[m].effects);
-    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, models[m].u), fidelity);
+    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, models[m].u), fidelity, reading);
   });
   return seen;
 }
@@ -89,7 +90,10 @@ PredictedTests::PredictedTests(const Evidence& evidence, std::vector<FittedModel
                                const std::vector<PossibleTest>& tests, int replicates)
     : measured_(evidence.observations), models_(std::move(models)), whitener_(measured_.covariance()) {
   const tester::Fidelity fidelity = evidence.settings.fidelity;
-  const auto seen = predictions(tests, models_, evidence.model, fidelity);
+  const auto seen = predictions(tests, models_, evidence.model, fidelity, measured_.reading);
+  added_.reading = measured_.reading;
+  added_.constant_sd = measured_.constant_sd;
+  same_errors_ = evidence.settings.procedure.tests.same_errors;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     Observation group = group_of(tests[t], replicates);
     if (group.test == TestKind::tensile) {
@@ -194,7 +198,6 @@ PredictedTests::NewRow PredictedTests::new_row(int row) const {
 }
 
 bool PredictedTests::is_replicate(const NewRow& row, std::size_t a, std::size_t b) const {
-  constexpr double kSame = 0.5;  // standard errors
   const DataRow& added = added_.rows[row.row];
   const double apart = predicted_[a].predicted[row.row] - predicted_[b].predicted[row.row];
   for (int i = 0; i < measured_.size(); ++i) {
@@ -203,7 +206,7 @@ bool PredictedTests::is_replicate(const NewRow& row, std::size_t a, std::size_t 
                       measured_.group_of(i).design == added_.group_of(row.row).design;
     if (!twin) continue;
     const double measured_apart = models_[a].predicted[i] - models_[b].predicted[i];
-    if (std::abs(apart - measured_apart) < kSame * std::sqrt(row.variance)) return true;
+    if (std::abs(apart - measured_apart) < same_errors_ * std::sqrt(row.variance)) return true;
   }
   return false;
 }

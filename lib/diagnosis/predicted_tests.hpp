@@ -58,6 +58,7 @@ class PredictedTests {
 
   const Observations& measured_;
   std::vector<FittedModel> models_;
+  double same_errors_ = 0.0;                               ///< TestRules::same_errors
   Whitener whitener_;                                      ///< of the measured rows
   Observations added_, joined_;                            ///< the tests alone, and behind the measured rows
   std::vector<std::vector<int>> rows_of_;                  ///< of each test, in added_

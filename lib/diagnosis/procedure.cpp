@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include "base/hash.hpp"
-#include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
-#include "diagnosis/discrepancy_model.hpp"
+#include "diagnosis/possible_tests.hpp"
+#include "diagnosis/procedure_fields.hpp"
+#include "diagnosis/settings.hpp"
 #include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "tester/simulation_key.hpp"
@@ -14,36 +15,62 @@
 namespace nacre::diagnosis {
 namespace {
 
-std::string procedure_text(const DiagnosisSettings& settings) {
-  std::string text = fmt::format("kernel {} fidelity {}\nlevels {} {} {} {} bootstraps {}\n", tester::kKernelVersion,
-                                 tester::to_string(settings.fidelity), settings.name_level, settings.unexplained_level,
-                                 kExclusionLevel, kDiscrepancyLevel, settings.bootstraps);
-  text += fmt::format("leads {} {} contrasts {} {}\n", kOwnLead, kCertainLead, kContrastTie, kEvenLead);
-  text += fmt::format("signal {} {} (at the named constants) distance {} sizes {}\n", kVisibleSignal, kNameableSignal,
-                      kToldApart, fmt::join(kSizes, " "));
-  text += fmt::format("constants {:a}\n", kConstantSd);
-  text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
-                      settings.floor.mesh_remainder_sd);
-  if (settings.ranges != material::thesis_ranges()) text += material::to_csv(settings.ranges);
-  const FractureDiscretisation& fracture = settings.fracture_discretisation;
+static_assert(Procedure{}.tests.planned_sizes[Procedure{}.tests.planned_typical] ==
+              Procedure{}.fit.sizes[Procedure{}.fit.typical]);
+
+/// Writes every number of a procedure behind its name, to the bit.
+struct NumberWriter {
+  std::string text = {};
+  void operator()(std::string_view name, const auto& value) {
+    text += name;
+    if constexpr (HasFields<std::remove_cvref_t<decltype(value)>>) {
+      text += ":\n";
+      walk_fields(*this, value);
+    } else if constexpr (requires { value.begin(); }) {
+      text += fmt::format(" {}\n", fmt::join(value, " "));
+    } else {
+      text += fmt::format(" {}\n", value);
+    }
+  }
+};
+
+std::string numbers_of(const Procedure& procedure) {
+  NumberWriter writer;
+  walk_fields(writer, procedure);
+  return writer.text;
+}
+
+std::string floors_of(const ModulusFloor& modulus, const FractureDiscretisation& fracture) {
+  std::string text =
+      fmt::format("floor {} {} {}\n", modulus.log_modulus_sd, modulus.mesh_amplitude, modulus.mesh_remainder_sd);
+  for (const Feature feature : fracture.features) text += fmt::format("fracture feature {}\n", to_string(feature));
   for (const Eigen::MatrixXd* matrix : {&fracture.shared, &fracture.rigid, &fracture.layout})
-    text += fmt::format("fracture {:a}\n", fmt::join(matrix->reshaped(), " "));
+    text += fmt::format("fracture {}\n", fmt::join(matrix->reshaped(), " "));
+  return text;
+}
+
+/// Effects, features, descriptors and the coupons that are ordered.
+std::string definitions() {
+  std::string text;
   for (const material::Effect& effect : material::effect_library()) {
     text += fmt::format("effect {} {}", effect.name, effect.family);
     for (const material::EffectParameter& p : effect.parameters)
-      text += fmt::format(" [{} {:a} {:a}]", p.unit, p.minimum, p.maximum);
+      text += fmt::format(" [{} {} {}]", p.unit, p.minimum, p.maximum);
     text += "\n";
   }
   for (int i = 0; i < kFeatureCount; ++i) text += fmt::format("feature {}\n", to_string(static_cast<Feature>(i)));
   for (const Descriptor& descriptor : descriptors()) text += fmt::format("contrast {}\n", descriptor.name);
-  text += "contrast of every batch\n";
-  return text;
+  return text + fmt::format("coupons {}\n", tester::to_string(coupon_loading()));
 }
 
 }  // namespace
 
 std::string procedure_hash(const DiagnosisSettings& settings) {
-  return content_hash(procedure_text(settings)).substr(0, 16);
+  std::string text = fmt::format("kernel {} fidelity {} bootstraps {}\n", tester::kKernelVersion,
+                                 tester::to_string(settings.fidelity), settings.bootstraps);
+  text += numbers_of(settings.procedure) + floors_of(settings.floor, settings.fracture_discretisation) + definitions() +
+          material::to_csv(settings.ranges);
+  return content_hash(text).substr(0, 16);
 }
 
 }  // namespace nacre::diagnosis

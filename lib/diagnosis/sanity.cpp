@@ -17,13 +17,14 @@ namespace {
 using tester::TestKind;
 
 struct DiscretisationVariant {
-  const char* words;
+  DiscretisationChange changed;
   tester::Discretisation discretisation;
 };
 
 std::vector<DiscretisationVariant> variants() {
-  DiscretisationVariant step{"half the time step", {}}, rate{"half the simulated rate", {}},
-      recording{"doubled recording", {}}, element{"half the element size", {}};
+  using enum DiscretisationChange;
+  DiscretisationVariant step{half_time_step, {}}, rate{half_rate, {}}, recording{doubled_recording, {}},
+      element{half_element, {}};
   step.discretisation.time_step_scale = 0.5;
   rate.discretisation.rate_scale = 0.5;
   recording.discretisation.recording_scale = 2;
@@ -47,7 +48,7 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
 }
 
 FeatureValues features_with(const Observation& group, const material::ParameterSet& set, tester::Fidelity fidelity,
-                            const DiscretisationVariant& variant) {
+                            const DiscretisationVariant& variant, const CurveReading& reading) {
   FeatureValues values;
   const tester::Simulation simulation{group.design, tester::refined(set, variant.discretisation.refinement),
                                       group.conditions, fidelity};
@@ -55,7 +56,7 @@ FeatureValues features_with(const Observation& group, const material::ParameterS
     if (const auto result = tester::test_modulus(simulation, variant.discretisation))
       value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
   } else if (const auto result = tester::test_toughness(simulation, variant.discretisation)) {
-    values = fracture_features(result->curve);
+    values = fracture_features(result->curve, reading);
   }
   return values;
 }
@@ -63,8 +64,8 @@ FeatureValues features_with(const Observation& group, const material::ParameterS
 }  // namespace
 
 std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
-                                              tester::Fidelity fidelity) {
-  std::vector<DiscretisationVariant> tried = {{"", {}}};
+                                              tester::Fidelity fidelity, double numerical) {
+  std::vector<DiscretisationVariant> tried = {{{}, {}}};  // as it is, then refined
   for (const DiscretisationVariant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
   std::vector<SanityCheck> checks;
@@ -76,11 +77,11 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
                         v = static_cast<std::size_t>(job) % tried.size();
       // A static test has neither time step nor rate.
       if (test == TestKind::modulus && v != 0 && tried[v].discretisation.refinement == 1) return;
-      values[g][v] = features_with(observations.groups[groups[g]], set, fidelity, tried[v]);
+      values[g][v] = features_with(observations.groups[groups[g]], set, fidelity, tried[v], observations.reading);
     });
     for (std::size_t v = 1; v < tried.size(); ++v) {
       for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
-        SanityCheck check{tried[v].words, feature, 0.0, 0.0, false};
+        SanityCheck check{tried[v].changed, feature, 0.0, 0.0, false};
         for (std::size_t g = 0; g < groups.size(); ++g) {
           const auto &before = value_of(values[g][0], feature), &after = value_of(values[g][v], feature);
           if (!before || !after) continue;
@@ -92,7 +93,7 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
           }
         }
         if (check.allowed == 0.0) continue;
-        check.numerical = check.largest > 2.0 * check.allowed;
+        check.numerical = check.largest > numerical * check.allowed;
         checks.push_back(check);
       }
     }

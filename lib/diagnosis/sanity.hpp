@@ -9,11 +9,12 @@
 
 namespace nacre::diagnosis {
 
-/// Step 1 of the procedure: three specimens (least, middling and most rigid) at the parameters given, simulated again
-/// with other discretisations. Moduli: element size; fracture tests: element size, time step, rate and recording, by
-/// log T and log peak stress. Nothing for coupons, which have neither mesh nor time step.
+/// Step 1 of the procedure, a change is `numerical` beyond so many standard errors: three specimens (least, middling
+/// and most rigid) at the parameters given, simulated again with other discretisations. Moduli: element size; fracture
+/// tests: element size, time step, rate and recording, by log T and log peak stress. Nothing for coupons, which have
+/// neither mesh nor time step.
 std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
-                                              tester::Fidelity fidelity);
+                                              tester::Fidelity fidelity, double numerical);
 
 /// Groups of replicates of which some are out of line (measurement::review_replicates), by design and test: "modulus of
 /// 577fffe9fffdef". A value mistyped looks like an unmodelled cause.

@@ -9,22 +9,20 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
-constexpr double kAssumedSd = 0.02;
-/// Fewer degrees of freedom are made up to so many with the assumed scatter.
-constexpr int kEnoughDof = 8;
 /// Replicates that agree better than a testing machine reads do not determine scatter; exactly equal ones would leave a
-/// singular covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and
-/// ISO 9513). Strains: as a strain.
-constexpr double kLeastSd = 1e-4, kLeastCurveSd = 2e-3, kLeastStrainSd = 2e-5;
-
-double least_sd(std::size_t f) {
+/// singular covariance.
+double least_sd(std::size_t f, const NoiseRules& rules) {
   const auto feature = static_cast<Feature>(f);
-  return feature == Feature::toe_strain ? kLeastStrainSd : feature == Feature::log_modulus ? kLeastSd : kLeastCurveSd;
+  return feature == Feature::toe_strain    ? rules.least_strain_sd
+         : feature == Feature::log_modulus ? rules.least_modulus_sd
+                                           : rules.least_curve_sd;
 }
 
-constexpr AssumedScatter kAssumed{
-    .modulus = kAssumedSd, .stress = kAssumedSd, .strain = kAssumedSd, .toe_strain = 0.02 * kAssumedSd};
+/// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
+AssumedScatter assumed_scatter(const NoiseRules& rules) {
+  const double sd = rules.assumed_sd;
+  return {.modulus = sd, .stress = sd, .strain = sd, .toe_strain = rules.assumed_toe * sd};
+}
 
 double assumed_sd(Feature f, const AssumedScatter& scatter) {
   switch (f) {
@@ -97,7 +95,7 @@ int batch_differences(const std::vector<Deviation>& deviations) {
 /// of a specimen without a curve) must not appear to scatter less: there the loading slope takes the place of the
 /// unloading slope, and for every degree of freedom filled in so the assumed variance is added, or the feature's own
 /// where that is larger.
-Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int dof) {
+Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int dof, const AssumedScatter& assumed) {
   const auto count = static_cast<double>(deviations.size());
   std::vector<FeatureValues> filled;
   std::array<int, kFeatureCount> lacking{};
@@ -120,7 +118,7 @@ Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int d
     double own = 0.0;
     for (const Deviation& d : deviations) own += std::pow(d.from_mean[f].value_or(0.0), 2);
     const double filled_dof = dof * lacking[f] / count, own_dof = dof - filled_dof;
-    products.diagonal()[f] += filled_dof * std::max(std::pow(assumed_sd(static_cast<Feature>(f), kAssumed), 2),
+    products.diagonal()[f] += filled_dof * std::max(std::pow(assumed_sd(static_cast<Feature>(f), assumed), 2),
                                                     own_dof > 0.0 ? own / own_dof : 0.0);
   }
   return products;
@@ -146,13 +144,14 @@ bool agree_too_well(const std::vector<Deviation>& deviations, const Eigen::Matri
 
 }  // namespace
 
-Eigen::MatrixXd covariance_of(const AssumedScatter& scatter) {
-  constexpr double kTogether = 0.9;
+Eigen::MatrixXd covariance_of(const AssumedScatter& scatter, const NoiseRules& rules) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
   for (int i = 0; i < kFeatureCount; ++i) {
     for (int j = 0; j < kFeatureCount; ++j) {
       const auto a = static_cast<Feature>(i), b = static_cast<Feature>(j);
-      const double correlation = i == j ? 1.0 : is_curve_stress(a) && is_curve_stress(b) ? kTogether : 0.0;
+      const double correlation = i == j                                     ? 1.0
+                                 : is_curve_stress(a) && is_curve_stress(b) ? rules.stresses_together
+                                                                            : 0.0;
       covariance(i, j) = correlation * assumed_sd(a, scatter) * assumed_sd(b, scatter);
     }
   }
@@ -183,12 +182,12 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
 }
 
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
-                                const std::string& design) {
+                                const NoiseRules& rules, const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
   const int within = dof_within(deviations);
   // Means of batches come off where enough is left to estimate scatter.
   const int differences = batch_differences(deviations);
-  const bool by_batch = differences > 0 && within >= 4 * differences;
+  const bool by_batch = differences > 0 && within >= rules.dof_per_batch * differences;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
   scatter.dof = within - (by_batch ? differences : 0);
@@ -197,22 +196,23 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
     // All designs share the means of batches: each bears its share of the degrees of freedom that they take.
     scatter.dof = within > 0 ? dof_within(deviations) * scatter.dof / within : 0;
   }
-  if (scatter.dof <= 0) return {covariance_of(kAssumed), 0, kEnoughDof};
+  const AssumedScatter assumption = assumed_scatter(rules);
+  const Eigen::MatrixXd assumed = covariance_of(assumption, rules);
+  if (scatter.dof <= 0) return {assumed, 0, rules.enough_dof};
   int features = 0;
   for (std::size_t f = 0; f < kFeatureCount; ++f)
     features += std::any_of(deviations.begin(), deviations.end(),
                             [f](const Deviation& d) { return d.from_mean[f].has_value(); });
-  scatter.covariance = sums_of_products(deviations, scatter.dof) / scatter.dof;
-  const Eigen::MatrixXd assumed = covariance_of(kAssumed);
-  if (scatter.dof < kEnoughDof && agree_too_well(deviations, scatter.covariance, assumed)) {
-    scatter.assumed_dof = kEnoughDof - scatter.dof;
-    scatter.covariance = (scatter.dof * scatter.covariance + scatter.assumed_dof * assumed) / kEnoughDof;
+  scatter.covariance = sums_of_products(deviations, scatter.dof, assumption) / scatter.dof;
+  if (scatter.dof < rules.enough_dof && agree_too_well(deviations, scatter.covariance, assumed)) {
+    scatter.assumed_dof = rules.enough_dof - scatter.dof;
+    scatter.covariance = (scatter.dof * scatter.covariance + scatter.assumed_dof * assumed) / rules.enough_dof;
   }
   const double dof = scatter.dof + scatter.assumed_dof, keep = dof / (dof + features);
   for (Eigen::Index f = 0; f < kFeatureCount; ++f) {
     for (Eigen::Index g = 0; g < kFeatureCount; ++g)
       if (f != g) scatter.covariance(f, g) *= keep;
-    const double least = least_sd(f);
+    const double least = least_sd(f, rules);
     scatter.covariance(f, f) = std::max(scatter.covariance(f, f), least * least);
   }
   return scatter;

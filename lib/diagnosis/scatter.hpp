@@ -30,7 +30,7 @@ struct AssumedScatter {
 
 /// Covariance between the features of one specimen. Its stresses are correlated: a thicker print is stiffer from the
 /// first strain to the last.
-Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
+Eigen::MatrixXd covariance_of(const AssumedScatter& scatter, const NoiseRules& rules);
 
 /// Scatter of the replicates of one test, pooled over its groups: differences between batches count as history, not as
 /// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of everything
@@ -38,7 +38,7 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 /// replicates that agree better than that are not believed: up to eight degrees of freedom are made up with it. With a
 /// name of a design, only its groups are pooled.
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
-                                const std::string& design = "");
+                                const NoiseRules& rules, const std::string& design = "");
 
 /// Number of sets of batches that no group joins. Where there are several, differences between batches look like
 /// differences between designs. Specimens without a batch do not count.

@@ -8,20 +8,19 @@
 #include "base/result.hpp"
 #include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
+#include "diagnosis/procedure.hpp"
 #include "material/ranges.hpp"
 #include "tester/names.hpp"
 #include "tester/simulation.hpp"
 
 namespace nacre::diagnosis {
 
-/// Family-wise level of a name.
-inline constexpr double kNameLevel = 0.003;
-
 struct DiagnosisSettings {
   material::ParameterSet start;                                   ///< initial guess of the base fit
   material::ParameterRanges ranges = material::default_ranges();  ///< moduli and ratios may leave them: CoordinateMap
   tester::Fidelity fidelity = tester::Fidelity::full;
-  int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
+  Procedure procedure;
+  int bootstraps = 2000;  ///< at least 2 / the level of a name: fewer could never reach it
   std::uint64_t seed = 1;
   ModulusFloor floor;                              ///< from data/discretisation_floor.toml
   FractureDiscretisation fracture_discretisation;  ///< from the same file
@@ -29,8 +28,6 @@ struct DiagnosisSettings {
   std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
   int threads = 0;                   ///< 0 all allowed cores
   bool check_discretisation = true;  ///< simulate three specimens with other discretisations too
-  double name_level = kNameLevel;    ///< family-wise level of a name
-  double unexplained_level = 0.01;   ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and the present step.
   std::function<void(double, std::string_view)> progress = {};
 };

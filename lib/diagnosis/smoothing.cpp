@@ -11,9 +11,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr std::size_t kFewestReadings = 128;
-constexpr double kFewestPieces = 8, kMostPieces = 64;
-
 /// Standard deviation of single readings, from the distance of each to the line between its neighbours; the median, so
 /// that bends do not count.
 double scatter_of(const tester::Curve& curve) {
@@ -48,14 +45,14 @@ Eigen::VectorXd knots_of(const tester::Curve& curve, int pieces) {
 
 }  // namespace
 
-tester::Curve smoothed(const tester::Curve& curve) {
-  constexpr double kQuiet = 1e-4, kWanted = 3e-3;  // of the largest stress
-  if (curve.size() < kFewestReadings || curve.strain.back() <= curve.strain.front()) return curve;
+tester::Curve smoothed(const tester::Curve& curve, const CurveReading& reading) {
+  if (curve.size() < static_cast<std::size_t>(reading.fewest_readings) || curve.strain.back() <= curve.strain.front())
+    return curve;
   const double scatter = scatter_of(curve) / *std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
-  if (!(scatter > kQuiet)) return curve;
-  const double readings_per_knot = std::max(4.0, std::pow(scatter / kWanted, 2));
-  const int pieces =
-      static_cast<int>(std::clamp(static_cast<double>(curve.size()) / readings_per_knot, kFewestPieces, kMostPieces));
+  if (!(scatter > reading.quiet_scatter)) return curve;
+  const double readings_per_knot = std::max(reading.fewest_per_knot, std::pow(scatter / reading.knot_scatter, 2));
+  const int pieces = static_cast<int>(
+      std::clamp(static_cast<double>(curve.size()) / readings_per_knot, reading.fewest_pieces, reading.most_pieces));
   const Eigen::VectorXd knots = knots_of(curve, pieces);
   tester::Curve smooth;
   for (int knot = 0; knot <= pieces; ++knot) {

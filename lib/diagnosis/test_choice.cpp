@@ -9,12 +9,8 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr double kMostErrors = 4.0;   // believed of one way of testing
-constexpr double kLeastErrors = 1.0;  // below which a test separates nothing
-constexpr double kLeastFall = 1e-6;   // of a chance, below which a further test is not bought for it
-
 /// Squared errors already bought for one pair, by way of testing.
-using Bought = std::map<std::string, double>;
+using Bought = std::map<TestWay, double>;
 
 double confusion(const Bought& bought) {
   double squared = 0.0;
@@ -22,9 +18,9 @@ double confusion(const Bought& bought) {
   return normal_cdf(-0.5 * std::sqrt(squared));
 }
 
-void buy(Bought& bought, const TestValue& test, std::size_t pair) {
+void buy(Bought& bought, const TestValue& test, std::size_t pair, double most_errors) {
   double& square = bought[test.way];
-  square = std::max(square, std::pow(std::min(test.pairs[pair].errors, kMostErrors), 2));
+  square = std::max(square, std::pow(std::min(test.pairs[pair].errors, most_errors), 2));
 }
 
 /// The value of one more test.
@@ -32,22 +28,24 @@ struct Worth {
   double fall = 0.0;     ///< of the chance of confusion, summed over the pairs
   double errors = 0.0;   ///< the largest separation
   std::size_t pair = 0;  ///< that gains most
-  bool operator>(const Worth& other) const {
-    const double mine = std::max(fall, kLeastFall), its = std::max(other.fall, kLeastFall);
-    return mine != its ? mine > its : errors > other.errors;
-  }
 };
 
-Worth worth_of(const TestValue& test, const std::vector<Bought>& bought) {
+bool is_better(const Worth& one, const Worth& other, double least_fall) {
+  const double mine = std::max(one.fall, least_fall), its = std::max(other.fall, least_fall);
+  return mine != its ? mine > its : one.errors > other.errors;
+}
+
+Worth worth_of(const TestValue& test, const std::vector<Bought>& bought, const TestRules& rules) {
   Worth worth;
   double most = -1.0;
   for (std::size_t pair = 0; pair < test.pairs.size(); ++pair) {
     Bought then = bought[pair];
-    buy(then, test, pair);
+    buy(then, test, pair, rules.most_errors);
     const double fall = confusion(bought[pair]) - confusion(then), errors = test.pairs[pair].errors;
     worth.fall += fall;
     worth.errors = std::max(worth.errors, errors);
-    const double gain = fall + kLeastFall * errors;  // where nothing falls any more, the pair that it separates most
+    const double gain =
+        fall + rules.least_fall * errors;  // where nothing falls any more, the pair that it separates most
     if (gain > most) most = gain, worth.pair = pair;
   }
   return worth;
@@ -55,22 +53,22 @@ Worth worth_of(const TestValue& test, const std::vector<Bought>& bought) {
 
 }  // namespace
 
-std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count) {
+std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count, const TestRules& rules) {
   std::vector<TestChoice> chosen;
   if (tests.empty()) return chosen;
   std::vector<Bought> bought(tests.front().pairs.size());
   std::vector<std::size_t> left;
   for (std::size_t t = 0; t < tests.size(); ++t)
-    if (worth_of(tests[t], bought).errors >= kLeastErrors) left.push_back(t);
+    if (worth_of(tests[t], bought, rules).errors >= rules.least_errors) left.push_back(t);
   while (!left.empty() && static_cast<int>(chosen.size()) < count) {
     auto best = left.begin();
-    Worth best_worth = worth_of(tests[*best], bought);
+    Worth best_worth = worth_of(tests[*best], bought, rules);
     for (auto t = left.begin() + 1; t != left.end(); ++t) {
-      const Worth worth = worth_of(tests[*t], bought);
-      if (worth > best_worth) best = t, best_worth = worth;
+      const Worth worth = worth_of(tests[*t], bought, rules);
+      if (is_better(worth, best_worth, rules.least_fall)) best = t, best_worth = worth;
     }
     chosen.push_back({*best, best_worth.pair});
-    for (std::size_t pair = 0; pair < bought.size(); ++pair) buy(bought[pair], tests[*best], pair);
+    for (std::size_t pair = 0; pair < bought.size(); ++pair) buy(bought[pair], tests[*best], pair, rules.most_errors);
     left.erase(best);
   }
   return chosen;

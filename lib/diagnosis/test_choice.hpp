@@ -3,10 +3,9 @@
 // different ways.
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
-#include "diagnosis/observations.hpp"
+#include "diagnosis/possible_tests.hpp"
 
 namespace nacre::diagnosis {
 
@@ -18,7 +17,7 @@ struct Separation {
 
 /// Separation of every pair of models by a possible test.
 struct TestValue {
-  std::string way;                ///< "turned twin", ...: tests of one way share the errors of all models there
+  TestWay way;                    ///< tests of one way share the errors of all models there
   std::vector<Separation> pairs;  ///< in the same order in every test
 };
 
@@ -32,6 +31,6 @@ struct TestChoice {
 /// the squared errors of the best test of each way, none counted as more than four standard errors: predictions of
 /// tests are not better than that. Where no chance falls any more, the largest separation comes first. A test that
 /// separates no pair by a standard error is never chosen.
-std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
+std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count, const TestRules& rules);
 
 }  // namespace nacre::diagnosis

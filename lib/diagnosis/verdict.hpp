@@ -1,5 +1,5 @@
 #pragma once
-// From evidence to verdict (docs/METHODS.md, "Diagnosis", steps 7 and 8).
+// From evidence to verdict (docs/METHODS.md, "Diagnosis", step 7).
 
 #include <optional>
 #include <string>
@@ -15,21 +15,16 @@ struct Decision {
   Verdict verdict = Verdict::base_sufficient;
   std::vector<FittedModel> possible;
   std::optional<FittedModel> partial;  ///< best model of an unexplained misfit
-  std::vector<double> p_fit;  ///< per effect: chance of a misfit as large when base + effect is true; 1 where no name
-                              ///< was in question, 0 too far behind the best to be tested
-  std::vector<double> p_family_wise;  ///< per effect
-  double p_misfit = 1.0;
   double p_outside = 1.0;  ///< chance that an unmodelled cause would give a name as surely (discrepancy_model.hpp); 1
                            ///< when not tested
   std::vector<Contrast> contrasts;     ///< of the base model's residuals, strongest first
   std::size_t loudest_part = 0;        ///< of the rows, where the base is farthest off (Anchor::parts)
   std::vector<ModulusAtBound> untold;  ///< where specimens of these materials would decide between another material
                                        ///< and a missing effect: `ambiguous`, no model possible
-  std::string reason;                  ///< the step that decided, in words
+  Finding finding;
 };
 
-/// Select, keep the set of models that the data cannot distinguish, or say that none fits. A single effect that fits
-/// better from where a pair ended is replaced in the evidence.
-Decision decide(Evidence& evidence);
+/// Select, keep the set of models that the data cannot distinguish, or say that none fits.
+Decision decide(const Evidence& evidence);
 
 }  // namespace nacre::diagnosis

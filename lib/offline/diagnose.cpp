@@ -3,6 +3,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/included_specimens.hpp"
 #include "diagnosis/json.hpp"
+#include "diagnosis/words.hpp"
 #include "offline/json_parts.hpp"
 #include "offline/specimen_units.hpp"
 
@@ -24,7 +25,8 @@ diagnosis::Diagnosis diagnose_set(const measurement::MeasurementSet& set, bool f
                                   const diagnosis::DiagnosisSettings& settings) {
   const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, fracture);
   diagnosis::Diagnosis diagnosis = diagnosis_of(part, settings);
-  diagnosis.summary += part.left_out + specimen_unit_doubts(set.specimens, settings.start, settings.fidelity).caution;
+  diagnosis.summary +=
+      left_out_in_words(part) + specimen_unit_doubts(set.specimens, settings.start, settings.fidelity).caution;
   return diagnosis;
 }
 

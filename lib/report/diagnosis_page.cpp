@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/statistics.hpp"
-#include "diagnosis/candidates.hpp"
-#include "diagnosis/settings.hpp"
-#include "diagnosis/summary.hpp"
+#include "diagnosis/procedure.hpp"
+#include "diagnosis/words.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "pattern/coupons.hpp"
@@ -22,6 +21,7 @@ namespace nacre::report {
 namespace {
 
 using diagnosis::CandidateEffect;
+using diagnosis::CandidateStatus;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
@@ -64,7 +64,8 @@ std::string trend_in_words(const Diagnosis& d) {
   }
   if (!diagnosis::lines_up(d)) {
     return fmt::format("After the best fit of the base model the residuals follow nothing that was examined{}{}.",
-                       d.loudest.empty() ? "" : "; the largest are those of ", escaped(d.loudest));
+                       d.loudest == diagnosis::RowsOf{} ? "" : "; the largest are those of ",
+                       escaped(in_words(d.loudest)));
   }
   const auto& c = d.contrasts.front();
   return fmt::format(
@@ -127,9 +128,9 @@ Exhibit cause_exhibit(const Diagnosis& d) {
   Exhibit exhibit{.id = "cause", .heading = "The cause"};
   for (const auto& named : d.effects) exhibit.parts.push_back(named_part(named));
   if (d.verdict == Verdict::ambiguous) {
-    exhibit.notes.push_back(
-        fmt::format("Each of these explains the data as well as the others{}:",
-                    d.common_ground.empty() ? "" : "; common to all of them: " + effect_name(d.common_ground)));
+    const std::string common = in_words(d.common_ground);
+    exhibit.notes.push_back(fmt::format("Each of these explains the data as well as the others{}:",
+                                        common.empty() ? "" : "; common to all of them: " + effect_name(common)));
     for (const auto& model : d.possible) exhibit.list.push_back(escaped(names_of(model, " with ")));
   }
   if (d.verdict == Verdict::unexplained) {
@@ -144,11 +145,11 @@ Exhibit cause_exhibit(const Diagnosis& d) {
 
 /// The status of a candidate effect and why.
 std::string status_cell(const CandidateEffect& c, Verdict verdict) {
-  const std::string status = escaped(status_in_words(c.status));
-  if (c.status == "in_set") return fmt::format("<strong>{}</strong>", status);
-  if (c.status == "invisible") return status + " (it may act all the same)";
-  if (c.status != "excluded") return status + " (these tests cannot show it)";
-  if (c.p_family_wise > diagnosis::kNameLevel) return status + " (no sign of it)";
+  const std::string status = escaped(status_in_words(to_string(c.status)));
+  if (c.status == CandidateStatus::in_set) return fmt::format("<strong>{}</strong>", status);
+  if (c.status == CandidateStatus::invisible) return status + " (it may act all the same)";
+  if (c.status != CandidateStatus::excluded) return status + " (these tests cannot show it)";
+  if (c.p_family_wise > diagnosis::Levels{}.name) return status + " (no sign of it)";
   return status + (verdict == Verdict::unexplained ? " (improves the fit, but cannot be named)"
                                                    : " (improves the fit, but others explain the data better)");
 }
@@ -181,7 +182,7 @@ ExhibitTable candidate_table(const Diagnosis& d) {
                   {"", "chance", "Probability that the best of all candidates does as well by accident"}}};
   table.look = "words wrapped";
   for (const CandidateEffect& c : d.candidates) {
-    const bool acts = c.status != "not_applicable";
+    const bool acts = c.status != CandidateStatus::not_applicable;
     table.add({shown_cell(effect_name(c.name)), shown_cell(status_cell(c, d.verdict)),
                shown_cell(acts ? figure(c.signal_to_noise) : "–"), shown_cell(acts ? percent(c.absorption) : "–"),
                shown_cell(visible_from(c)),
@@ -196,7 +197,7 @@ ExhibitTable candidate_table(const Diagnosis& d) {
 Exhibit candidate_exhibit(const Diagnosis& d) {
   Exhibit exhibit{.id = "rivals", .heading = "Candidate effects: what else could explain it"};
   exhibit.tables.push_back(candidate_table(d));
-  exhibit.fine_print.push_back(fmt::format(kCandidateColumns, diagnosis::kVisibleSignal));
+  exhibit.fine_print.push_back(fmt::format(kCandidateColumns, diagnosis::NameRules{}.visible_signal));
   return exhibit;
 }
 
@@ -219,7 +220,7 @@ Exhibit gain_exhibit(const diagnosis::Gain& gain) {
 
 /// Why no test is proposed.
 std::string why_no_test(const Diagnosis& d) {
-  const auto invisible = std::ranges::count(d.candidates, "invisible", &CandidateEffect::status);
+  const auto invisible = std::ranges::count(d.candidates, CandidateStatus::invisible, &CandidateEffect::status);
   if (d.verdict != Verdict::base_sufficient || invisible == 0)
     return "No two models are left that another specimen would tell apart.";
   return fmt::format(

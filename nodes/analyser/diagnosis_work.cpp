@@ -51,7 +51,8 @@ wire::Diagnosis message_of(const diagnosis::Diagnosis& d, int round) {
     }
   }
   for (const diagnosis::CandidateEffect& c : d.candidates) {
-    message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});
+    message.candidates.push_back(
+        {c.name, std::string(to_string(c.status)), c.statistic, c.p_family_wise, c.absorption});
   }
   if (d.gain)
     message.gain = wire::DiagnosedGain{.held_out_error_before = d.gain->held_out_error_before,

@@ -14,6 +14,7 @@
 #include "diagnosis/json.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
+#include "diagnosis/words.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "offline/diagnose.hpp"
@@ -58,7 +59,7 @@ void print_candidates(const diagnosis::Diagnosis& d) {
   std::string unseen;
   bool is_first = true;
   for (const diagnosis::CandidateEffect& c : d.candidates) {
-    if (c.status == "not_applicable") {
+    if (c.status == diagnosis::CandidateStatus::not_applicable) {
       unseen += (unseen.empty() ? "" : ", ") + material::effect_in_words(c.name);
       continue;
     }
@@ -69,8 +70,9 @@ void print_candidates(const diagnosis::Diagnosis& d) {
     }
     const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
     fmt::print("  {:<34} {:<26} {:>18.1f} {:>7.4f} {:>7.0f} % {:>6.1f}  {}{}\n", material::effect_in_words(c.name),
-               report::status_in_words(c.status), c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
-               size_or_dash(c.smallest_seen), c.smallest_seen ? material::unit_behind_number(unit) : "");
+               report::status_in_words(to_string(c.status)), c.statistic, c.p_family_wise, 100 * c.absorption,
+               c.signal_to_noise, size_or_dash(c.smallest_seen),
+               c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
   if (!unseen.empty()) fmt::print("  these tests cannot say: {}\n", unseen);
 }
@@ -123,18 +125,24 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
 }
 
 /// The status of an effect in a plan.
-std::string_view plan_in_words(std::string_view status) {
-  if (status == "told_apart") return "can be named";
-  if (status == "visible") return "visible, but not told apart";
-  if (status == "invisible") return "not visible";
-  if (status == "not_shown") return "these tests cannot show it";
-  return status;
+std::string_view plan_in_words(diagnosis::PlanStatus status) {
+  switch (status) {
+    case diagnosis::PlanStatus::told_apart:
+      return "can be named";
+    case diagnosis::PlanStatus::visible:
+      return "visible, but not told apart";
+    case diagnosis::PlanStatus::invisible:
+      return "not visible";
+    case diagnosis::PlanStatus::not_shown:
+      break;
+  }
+  return "these tests cannot show it";
 }
 
 void print_plan(const diagnosis::Plan& plan) {
   fmt::print("{} in {}; the effect sizes from which a cause is visible, and from which it can be named\n",
              counted(plan.specimens, "specimen"), counted(plan.groups, "group"));
-  if (!plan.too_few.empty()) fmt::print("too few as they are: {}\n", plan.too_few);
+  if (plan.too_few) fmt::print("too few as they are: {}\n", in_words(*plan.too_few));
   constexpr const char* kLine = "  {:<34} {:<28} {:>12} {:>10} {:<24}  {}\n";
   fmt::print(kLine, "candidate effect", "status", "visible from", "named from", "unit",
              "most similar effect (collinearity)");
@@ -164,7 +172,7 @@ int plan(const Options& options) {
   const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, options.fracture);
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(part.specimens, settings);
   progress.end();
-  if (!part.left_out.empty()) remark(part.left_out.substr(1));
+  if (const std::string left_out = left_out_in_words(part); !left_out.empty()) remark(left_out.substr(1));
   if (options.json) {
     auto document = nlohmann::ordered_json::parse(to_json(plan));
     document["rejected"] = rejected_json(set.rejected);

@@ -15,7 +15,7 @@ Observations two_tests() {
   set.patterns = 8;
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
   for (const auto& coupon : synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 5, 0.01, 5)) specimens.push_back(coupon);
-  Observations observations = observe(specimens, 0.003, {});
+  Observations observations = observe(specimens, 0.003, {}, {});
   observations.discretisation_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
   for (int i = 0; i < observations.size(); ++i)
     if (is_modulus_of_layout(observations, i)) observations.discretisation_shared(i, 0) = 0.01 * (1 + i % 3);

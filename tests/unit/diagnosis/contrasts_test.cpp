@@ -24,15 +24,15 @@ std::vector<measurement::SpecimenRecord> layouts_and_coupons() {
 
 TEST(EvenDirections, AreThoseOfConditionsThatVary) {
   std::vector<measurement::SpecimenRecord> specimens = layouts_and_coupons();
-  EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}))), std::vector<std::string>{"orientation"});
+  EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}, {}))), std::vector<std::string>{"orientation"});
   for (int i = 0; i < 3; ++i) specimens[i].conditions.thickness_mm = 1.6;
-  EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}))),
+  EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}, {}))),
             (std::vector<std::string>{"orientation", "thickness"}));
 }
 
 // Coupons count beside layouts: turned ones that are no softer speak against a cause that acts on everything turned.
 TEST(EvenDirections, AreTheSameOnLayoutsAndCouponsAndNothingOnStrains) {
-  const Observations observations = observe(layouts_and_coupons(), 0.0, {});
+  const Observations observations = observe(layouts_and_coupons(), 0.0, {}, {});
   const ContrastDirection turned = even_directions(observations).front();
   double upright = 0.0;
   for (int i = 0; i < observations.size(); ++i) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "diagnosis/candidates.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 
@@ -18,11 +17,11 @@ std::vector<measurement::SpecimenRecord> specimens() {
 }
 
 TEST(DiscrepancyTest, ItsVarianceIsThatOfTheNoiseOnAverage) {
-  const Observations observations = observe(specimens(), 0.003, {});
+  const Observations observations = observe(specimens(), 0.003, {}, {});
   const Eigen::MatrixXd noise = observations.covariance();
   const auto directions = contrast_directions(observations, observations.values);
   ASSERT_GT(directions.size(), 5u);
-  const Eigen::MatrixXd unit = discrepancy_covariance(observations, directions, noise);
+  const Eigen::MatrixXd unit = discrepancy_covariance(observations, directions, noise, 0.5);
   double own = 0.0, wanted = 0.0;
   for (int i = 0; i < observations.size(); ++i)
     if (observations.rows[i].kind == RowKind::mean) own += unit(i, i), wanted += noise(i, i);
@@ -33,8 +32,8 @@ TEST(DiscrepancyTest, ItsVarianceIsThatOfTheNoiseOnAverage) {
 
 // A layout and its turned twin are one design: an unmodelled cause that acts on the design acts on both.
 TEST(DiscrepancyTest, TwinsShareWhatADesignHasOfItsOwn) {
-  const Observations observations = observe(specimens(), 0.003, {});
-  const Eigen::MatrixXd unit = discrepancy_covariance(observations, {}, observations.covariance());
+  const Observations observations = observe(specimens(), 0.003, {}, {});
+  const Eigen::MatrixXd unit = discrepancy_covariance(observations, {}, observations.covariance(), 0.5);
   int twins = 0;
   for (int i = 0; i < observations.size(); ++i) {
     for (int j = 0; j < i; ++j) {
@@ -53,7 +52,8 @@ TEST(DiscrepancyTest, TwinsShareWhatADesignHasOfItsOwn) {
 
 // The rest of a signature of collinearity 0.8 is just visible where names begin.
 TEST(DiscrepancyTest, ANameBeginsWhereACollinearEffectIsSeen) {
-  EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - 0.8 * 0.8), kVisibleSignal, 1e-12);
+  const NameRules rules;
+  EXPECT_NEAR(rules.nameable_signal() * std::sqrt(1.0 - 0.8 * 0.8), rules.visible_signal, 1e-12);
 }
 
 }  // namespace

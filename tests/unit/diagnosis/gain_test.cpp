@@ -29,7 +29,7 @@ Observations five_designs() {
   print_twice(specimens, pattern::checkerboard(5), 3e8);
   print_twice(specimens, pattern::checkerboard(10), 4e8);
   print_twice(specimens, pattern::checkerboard(10), 5e8, 90.0);
-  return observe(specimens, 0.0, {});
+  return observe(specimens, 0.0, {}, {});
 }
 
 /// A model without constants.
@@ -45,7 +45,7 @@ TEST(Gain, RanksDesignsThatTheMeasurementsSetApart) {
   const double mean = observations.values.mean();
   const FittedModel upside_down = predicting((2.0 * mean - observations.values.array()).matrix()),
                     right = predicting(observations.values);
-  const Gain gain = held_out_gain(observations, upside_down, {right}, {}, 1.0, 1);
+  const Gain gain = held_out_gain(observations, upside_down, {right}, {}, 1.0, {}, 1);
   ASSERT_EQ(gain.features.size(), 1u);
   const Ranking& ranking = gain.features[0].ranking;
   EXPECT_EQ(ranking.pairs, 9);  // ten of five upright designs, but for the two of equal stiffness

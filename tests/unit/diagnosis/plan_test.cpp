@@ -6,7 +6,6 @@
 
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/workbench.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 
@@ -41,7 +40,7 @@ TEST_F(Plans, AnUnmodelledCauseIsCountedLikeAKnownEffect) {
   // The same change of the same specimens: as a signature of an effect, and as a difference between two sets of values.
   const SyntheticSet set{.patterns = 10, .twins = 3, .noise = 0.0};
   const material::Effect& mixing = *material::find_effect("droplet_mixing");
-  const double typical = material::value_at_strength(mixing.parameters.front(), kSizes[kTypicalSize]);
+  const double typical = material::value_at_strength(mixing.parameters.front(), FitRules{}.sizes[FitRules{}.typical]);
   const auto plain = synthetic_specimens(set, settings_.start),
              changed = synthetic_specimens(set, with("droplet_mixing", typical));
   const double s = signal(plain, changed);
@@ -70,8 +69,8 @@ TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   const auto plain = pulled(settings_.start);
   const PlannedEffect flow = planned(plain, "rigid_yield");
   ASSERT_TRUE(flow.smallest_seen.has_value());
-  EXPECT_GT(signal(plain, pulled(with("rigid_yield", *flow.smallest_seen))), kVisibleSignal);
-  EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), kVisibleSignal);
+  EXPECT_GT(signal(plain, pulled(with("rigid_yield", *flow.smallest_seen))), NameRules{}.visible_signal);
+  EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), NameRules{}.visible_signal);
 }
 
 // A machine that gives way looks nearly like softer materials on specimens of all stiffnesses; the rest is visible.
@@ -87,7 +86,8 @@ TEST_F(Plans, AnEffectThatTheBaseMostlyImitatesIsSeenByTheRest) {
   const PlannedEffect compliance = planned(plain, "machine_compliance");
   EXPECT_GT(compliance.absorption, 0.95);
   ASSERT_TRUE(compliance.smallest_seen.has_value());
-  EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), kVisibleSignal, 0.1 * kVisibleSignal);
+  EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), NameRules{}.visible_signal,
+              0.1 * NameRules{}.visible_signal);
 }
 
 // Thin twins of 1.5 mm, where a plan proposes such of 1.6 mm: what the set shows does not depend on which of the names
@@ -104,7 +104,7 @@ TEST_F(Plans, ProposalsTakeNothingAwayFromTheSet) {
              with_proposals = plan_diagnosis(specimens, settings_, kScatter, true);
   ASSERT_FALSE(with_proposals.additions.empty());
   for (std::size_t k = 0; k < alone.effects.size(); ++k) {
-    if (alone.effects[k].status == "not_shown") continue;
+    if (alone.effects[k].status == PlanStatus::not_shown) continue;
     EXPECT_NEAR(with_proposals.effects[k].signal_to_noise, alone.effects[k].signal_to_noise,
                 1e-6 * alone.effects[k].signal_to_noise)
         << alone.effects[k].name;
@@ -120,7 +120,7 @@ TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
     return is_identified_by_moduli(*material::find_effect(name));
   };
   for (const PlannedEffect& effect : plan.effects) {
-    EXPECT_TRUE(is_candidate(effect.name) || effect.status == "not_shown") << effect.name;
+    EXPECT_TRUE(is_candidate(effect.name) || effect.status == PlanStatus::not_shown) << effect.name;
     EXPECT_TRUE(effect.nearest_rival.empty() || is_candidate(effect.nearest_rival)) << effect.nearest_rival;
   }
   bool coupons_show_more = false;
@@ -138,8 +138,10 @@ TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
 TEST_F(Plans, TooFewSpecimensShowNothingAndThePlanSaysWhatToAdd) {
   const auto specimens = synthetic_specimens({.patterns = 3, .twins = 0}, settings_.start);
   const Plan plan = plan_diagnosis(specimens, settings_, kScatter);
-  EXPECT_TRUE(plan.too_few.ends_with("there are 3 and 0")) << plan.too_few;
-  for (const PlannedEffect& effect : plan.effects) EXPECT_EQ(effect.status, "not_shown") << effect.name;
+  ASSERT_TRUE(plan.too_few.has_value());
+  EXPECT_EQ(plan.too_few->layouts, 3);
+  EXPECT_EQ(plan.too_few->coupons, 0);
+  for (const PlannedEffect& effect : plan.effects) EXPECT_EQ(effect.status, PlanStatus::not_shown) << effect.name;
   EXPECT_FALSE(plan.additions.empty());
   EXPECT_THROW(plan_diagnosis(specimens, settings_, kScatter, false), TooFewSpecimens);
 }

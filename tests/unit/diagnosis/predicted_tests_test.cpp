@@ -10,7 +10,8 @@
 #include <map>
 #include <memory>
 
-#include "diagnosis/workbench.hpp"
+#include "diagnosis/shared_discretisation.hpp"
+#include "diagnosis/words.hpp"
 #include "synthetic_set.hpp"
 
 namespace nacre::diagnosis {
@@ -57,7 +58,7 @@ struct ExactData {
   }
   double chi2(const FittedModel& truth, const FittedModel& fitted) {
     observations.values = model.predict(model.map(truth.effects), truth.u);
-    return fit_model(model, observations, fitted.effects, fitted.u).chi2;
+    return fit_model(model, observations, {}, fitted.effects, fitted.u).chi2;
   }
   /// Of the wrong model beyond the true one: the prior of the constants bears on both.
   double misfit(const FittedModel& truth, const FittedModel& wrong) { return chi2(truth, wrong) - chi2(truth, truth); }
@@ -70,9 +71,10 @@ const FittedModel& single(const Evidence& evidence, const std::string& effect) {
 /// Moduli of layouts that could be added: two of each kind.
 std::vector<PossibleTest> few_tests(const Observations& observations) {
   std::vector<PossibleTest> few;
-  std::map<AddedTest, int> counts;
-  for (const PossibleTest& test : possible_tests(observations))
-    if (test.test == tester::TestKind::modulus && test.kind != AddedTest::twin && counts[test.kind]++ < 2)
+  std::map<bool, int> counts;
+  for (const PossibleTest& test : possible_tests(observations, {}))
+    if (test.test == tester::TestKind::modulus && !is_twin(test.way.kind) &&
+        counts[test.way.kind == AddedTest::checkerboard]++ < 2)
       few.push_back(test);
   return few;
 }
@@ -82,8 +84,7 @@ class MixedDroplets : public testing::Test {
  protected:
   struct Gathered {
     DiagnosisSettings settings = tiny_settings();
-    Workbench workbench{mixed_specimens(), settings};
-    Evidence evidence = gather_evidence(workbench, settings);
+    Evidence evidence = gather_evidence(data_of(mixed_specimens(), settings), settings);
   };
   static void SetUpTestSuite() { gathered_ = std::make_unique<Gathered>(); }
   static void TearDownTestSuite() { gathered_.reset(); }
@@ -110,7 +111,7 @@ TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
     const double of_a_collinear_effect = 0.5 * (after[0] - before[0] + after[1] - before[1]),
                  of_the_base = after[2] - before[2];
     const std::vector<Separation> promised = predicted.separations(t, {{0, 1}, {0, 2}});
-    const std::string test = tests[t].design.name() + ", " + tests[t].words;
+    const std::string test = tests[t].design.name() + ", " + in_words(tests[t]);
     EXPECT_NEAR(std::pow(promised[1].errors, 2) / of_the_base, 1.0, 0.15) << test;
     EXPECT_LT(promised[0].errors, std::sqrt(std::max(of_a_collinear_effect, 0.0)) + 0.5) << test;
   }
@@ -118,8 +119,8 @@ TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
 
 TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
   const Evidence& evidence = gathered_->evidence;
-  std::vector<PossibleTest> twins = possible_tests(evidence.observations);
-  std::erase_if(twins, [](const PossibleTest& test) { return test.kind != AddedTest::twin; });
+  std::vector<PossibleTest> twins = possible_tests(evidence.observations, {});
+  std::erase_if(twins, [](const PossibleTest& test) { return !is_twin(test.way.kind); });
   const std::vector<FittedModel> models = {single(evidence, "droplet_mixing"),
                                            single(evidence, "interface_anisotropy")};
   const PredictedTests predicted(evidence, models, twins, kReplicates);
@@ -129,7 +130,7 @@ TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
     if (twins[t].conditions.orientation_deg == 90.0)
       most_turned = std::max(most_turned, errors);
     else
-      EXPECT_EQ(errors, 0.0) << twins[t].words << ": neither cause knows of rates or thickness";
+      EXPECT_EQ(errors, 0.0) << in_words(twins[t]) << ": neither cause knows of rates or thickness";
   }
   EXPECT_GT(most_turned, 1.0) << "of the causes only one has a direction";
 }

@@ -31,11 +31,11 @@ TEST(Smoothing, LeavesCurvesThatDoNotScatterAndShortOnesAlone) {
   RandomStream random(1, "smoothing");
   tester::Curve line;
   for (int i = 0; i < 500; ++i) line.strain.push_back(1e-4 * i), line.stress_pa.push_back(1e5 * i - 40.0 * i * i);
-  EXPECT_EQ(smoothed(line), line);
+  EXPECT_EQ(smoothed(line, {}), line);
   tester::Curve brief;
   for (int i = 0; i < 100; ++i)
     brief.strain.push_back(1e-4 * i), brief.stress_pa.push_back(1e5 * i + 1e5 * random.normal());
-  EXPECT_EQ(smoothed(brief), brief);
+  EXPECT_EQ(smoothed(brief, {}), brief);
 }
 
 TEST(Smoothing, FollowsTheCurveUnderTheReadings) {
@@ -47,7 +47,7 @@ TEST(Smoothing, FollowsTheCurveUnderTheReadings) {
     noisy.strain.push_back(strain);
     noisy.stress_pa.push_back(truth(strain) + 3e5 * random.normal());
   }
-  const tester::Curve smooth = smoothed(noisy);
+  const tester::Curve smooth = smoothed(noisy, {});
   EXPECT_LE(smooth.size(), 65u);
   for (std::size_t k = 0; k < smooth.size(); ++k)
     EXPECT_NEAR(smooth.stress_pa[k], truth(smooth.strain[k]), 3e5) << smooth.strain[k];
@@ -62,11 +62,11 @@ TEST(Smoothing, FeaturesOfNoisyCouponsAreThoseOfTheCurveInTheMean) {
   };
   for (const auto& [readings, noise_pa, tolerance] :
        {Machine{1000, 1e5, 0.005}, Machine{3000, 1.5e5, 0.005}, Machine{1000, 1e6, 0.02}}) {
-    const FeatureValues exact = tensile_features(coupon(readings, 0.0, random));
+    const FeatureValues exact = tensile_features(coupon(readings, 0.0, random), {});
     constexpr int kCoupons = 60;
     FeatureValues sum;
     for (int i = 0; i < kCoupons; ++i) {
-      const FeatureValues each = tensile_features(coupon(readings, noise_pa, random));
+      const FeatureValues each = tensile_features(coupon(readings, noise_pa, random), {});
       for (std::size_t f = 0; f < each.size(); ++f)
         if (each[f]) sum[f] = sum[f].value_or(0.0) + *each[f] / kCoupons;
     }

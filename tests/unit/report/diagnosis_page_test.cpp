@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/summary.hpp"
+#include "diagnosis/words.hpp"
 
 namespace nacre::report {
 namespace {

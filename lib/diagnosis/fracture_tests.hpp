@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -24,31 +25,30 @@ struct FractureRun {
 
 /// The features of a prediction as recorded by a machine with these measurement-side extensions.
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
-                             const measurement::PrintContext& context = {});
+                             const CurveReading& reading, const measurement::PrintContext& context = {});
 
-class FractureRuns {
+/// The fracture tests of a set, to be simulated at any parameters; each simulation is done once and kept.
+class FractureTests {
  public:
   /// `store`: a file of predictions that are kept (sysid::PredictionStore); empty: remembered while this object lives.
-  FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store,
-               int threads);
+  FractureTests(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store,
+                int threads);
   /// Indices of the observations' groups that are fracture tests.
   const std::vector<int>& groups() const { return groups_; }
-  /// Simulates all groups at each set and appends the runs; a set that was run already is not run again. `done` after
-  /// every simulation.
-  void add(const std::vector<material::ParameterSet>& sets, const std::function<void()>& done = {});
-  const std::vector<FractureRun>& runs() const { return runs_; }
+  /// All groups at each of these sets that is not among the `known` runs; `done` after every simulation.
+  std::vector<FractureRun> runs_at(const std::vector<material::ParameterSet>& sets, std::span<const FractureRun> known,
+                                   const std::function<void()>& done = {}) const;
   /// Simulations really done.
   int simulations() const { return simulator_->simulations(); }
   /// The most probable eta in `ranges` for the measured toughness and peaks, by the search of a calibration from
   /// `start`; its simulations are kept too.
   material::ToughnessParameters search(const material::ParameterSet& start, const material::ParameterRanges& ranges,
-                                       int budget, std::uint64_t seed, const sysid::ProgressCallback& progress);
+                                       int budget, std::uint64_t seed, const sysid::ProgressCallback& progress) const;
 
  private:
   std::vector<int> groups_;
   std::vector<measurement::Replicates> measured_;
   std::unique_ptr<sysid::LocalSimulator> simulator_;
-  std::vector<FractureRun> runs_;
 };
 
 /// The set without measurement-side extensions: the part that a simulation depends on.

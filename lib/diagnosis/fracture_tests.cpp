@@ -1,4 +1,4 @@
-#include "diagnosis/fracture_runs.hpp"
+#include "diagnosis/fracture_tests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,17 +34,17 @@ material::ParameterSet simulated_side(const material::ParameterSet& set) {
 }
 
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
-                             const measurement::PrintContext& context) {
+                             const CurveReading& reading, const measurement::PrintContext& context) {
   if (!prediction.toughness_pa || prediction.curve.empty()) return {};
   const sysid::Prediction shown = sysid::observed(prediction, extensions, context);
-  FeatureValues features = fracture_features(shown.curve);
+  FeatureValues features = fracture_features(shown.curve, reading);
   if (shown.toughness_pa && *shown.toughness_pa > 0.0)
     value_of(features, Feature::log_toughness) = std::log(*shown.toughness_pa);
   return features;
 }
 
-FractureRuns::FractureRuns(const Observations& observations, tester::Fidelity fidelity,
-                           const std::filesystem::path& store, int threads)
+FractureTests::FractureTests(const Observations& observations, tester::Fidelity fidelity,
+                             const std::filesystem::path& store, int threads)
     : simulator_(std::make_unique<sysid::LocalSimulator>(fidelity, threads, store)) {
   const double sd = observations.replicate_sd(Feature::log_toughness, tester::TestKind::toughness);
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
@@ -54,7 +54,9 @@ FractureRuns::FractureRuns(const Observations& observations, tester::Fidelity fi
   }
 }
 
-void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const std::function<void()>& done) {
+std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::ParameterSet>& sets,
+                                                std::span<const FractureRun> known,
+                                                const std::function<void()>& done) const {
   std::vector<sysid::WantedEvaluation> wanted;
   std::vector<std::size_t> items(measured_.size());
   std::iota(items.begin(), items.end(), std::size_t{0});
@@ -63,9 +65,9 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
     const auto same = [&](const auto& other) {
       return other.parameters.toughness == simulated.toughness && other.parameters.extensions == simulated.extensions;
     };
-    if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
+    if (std::ranges::any_of(known, same) || std::ranges::any_of(wanted, same)) continue;
     // A run breaks specimens of its own, so that what is fitted through all of them averages cracks.
-    const int number = runs_.size() + wanted.size();
+    const int number = known.size() + wanted.size();
     wanted.push_back({.id = fmt::format("run {}", number),
                       .parameters = simulated,
                       .toughness = true,
@@ -73,12 +75,14 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
                       .first_specimen = tester::kFirstCalibrationSpecimen + number});
   }
   auto predictions = simulator_->simulate(measured_, wanted, done);
-  for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(predictions[k])});
+  std::vector<FractureRun> runs;
+  for (std::size_t k = 0; k < wanted.size(); ++k) runs.push_back({wanted[k].parameters, std::move(predictions[k])});
+  return runs;
 }
 
-material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start,
-                                                   const material::ParameterRanges& ranges, int budget,
-                                                   std::uint64_t seed, const sysid::ProgressCallback& progress) {
+material::ToughnessParameters FractureTests::search(const material::ParameterSet& start,
+                                                    const material::ParameterRanges& ranges, int budget,
+                                                    std::uint64_t seed, const sysid::ProgressCallback& progress) const {
   // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find
   // the region.
   std::vector<measurement::Replicates> designs;

@@ -1,0 +1,211 @@
+#include "diagnosis/data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/words.hpp"
+#include "material/effect_library.hpp"
+#include "sysid/eta.hpp"
+#include "sysid/objective.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+void move_eta(material::ToughnessParameters& parameters, double spread, double sign,
+              const std::vector<double>& normal) {
+  material::ToughnessVector eta = to_vector(parameters);
+  for (std::size_t k = 0; k < sysid::kSearchedEta.size(); ++k)
+    eta[sysid::kSearchedEta[k]] *= std::exp(sign * spread * normal[k]);
+  parameters = material::toughness_from_vector(eta);
+}
+
+std::vector<double> normals(RandomStream& random) {
+  std::vector<double> values(sysid::kSearchedEta.size());
+  for (double& value : values) value = random.normal();
+  return values;
+}
+
+/// The centre, pairs around it, and every effect of the material on fractures at several sizes.
+std::vector<material::ParameterSet> planned_runs(const Basis& basis, const EmulatorRules& rules, std::uint64_t seed) {
+  const material::ParameterSet& centre = basis.centre;
+  std::vector<material::ParameterSet> sets = {centre};
+  RandomStream random(seed, "diagnosis/runs");
+  for (int k = 0; k < rules.pairs; ++k) {
+    const std::vector<double> normal = normals(random);
+    for (const double sign : {1.0, -1.0}) {
+      sets.push_back(centre);
+      move_eta(sets.back().toughness, rules.spread, sign, normal);
+    }
+  }
+  for (const material::Effect& effect : material::effect_library()) {
+    if (!effect.acts_on_toughness || effect.side != material::EffectSide::material) continue;
+    const std::vector<std::string> names = {std::string(effect.name)};
+    const CoordinateMap map(
+        Basis{.modulus = false, .toughness = true, .coupon = false, .centre = centre, .rules = basis.rules}, names);
+    const int own = map.base_count();
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0.0 && map.lower(own) >= 0.0) continue;
+      for (const double size : rules.effect_sizes) {
+        Eigen::VectorXd u = map.coordinates(centre);
+        u[own] = std::clamp(sign * size, map.lower(own), map.upper(own));
+        for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
+        sets.push_back(map.parameters(u));
+        move_eta(sets.back().toughness, rules.jitter, 1.0, normals(random));
+      }
+    }
+  }
+  return sets;
+}
+
+/// Effects that have a signature in these rows, in the order of material::effect_library().
+std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
+                                        const FitRules& rules) {
+  const CoordinateMap base = model.base_map();
+  const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
+  std::vector<Eigen::Index> rows(observations.size());
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const bool moduli_alone = std::ranges::all_of(
+      observations.groups, [](const Observation& group) { return group.test == tester::TestKind::modulus; });
+  std::vector<std::string> acting;
+  for (const material::Effect& effect : material::effect_library()) {
+    if (moduli_alone && !is_identified_by_moduli(effect)) continue;
+    const std::vector<std::string> names = {std::string(effect.name)};
+    const CoordinateMap map = model.map(names);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
+    u.head(start.size()) = start;
+    const int own = map.base_count();
+    for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(observations.size());
+    for (const double size : rules.probes) {
+      u[own] = std::clamp(size, map.lower(own), map.upper(own));
+      change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
+    }
+    if (has_signature(effect, change, observations, rows)) acting.push_back(names.front());
+  }
+  return acting;
+}
+
+/// The centre of the search for eta: the most probable one where it is searched for.
+material::ParameterSet centre_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
+  material::ParameterSet centre = settings.start;
+  centre.extensions.clear();
+  if (fractures == nullptr || settings.search_budget <= 0) return centre;
+  const auto searching = [&](double share, std::string_view) {
+    if (settings.progress) settings.progress(0.15 * share, "calibrating the fracture tester");
+  };
+  centre.toughness =
+      fractures->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
+  return centre;
+}
+
+std::vector<FractureRun> runs_around(const FractureTests& fractures, const Basis& basis,
+                                     const DiagnosisSettings& settings) {
+  const std::vector<material::ParameterSet> sets = planned_runs(basis, settings.procedure.emulator, settings.seed);
+  const double all = static_cast<double>(sets.size() * fractures.groups().size());
+  int count = 0;
+  return fractures.runs_at(sets, {}, [&] {
+    ++count;
+    if (settings.progress)
+      settings.progress(0.15 + 0.4 * std::min(1.0, count / all),
+                        fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
+  });
+}
+
+/// What the runs teach, and its error as variances of the rows.
+std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
+                                                      const EmulatorRules& rules) {
+  return std::make_shared<const FractureSurface>(data.observations, data.fractures->groups(), data.runs,
+                                                 basis.centre.toughness, rules);
+}
+
+Eigen::VectorXd emulator_variance(const Observations& observations, const FractureSurface& surface) {
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(observations.size());
+  for (std::size_t k = 0; k < surface.rows().size(); ++k)
+    variance[surface.rows()[k].row] = surface.cross_validated_variance()[k];
+  return variance;
+}
+
+/// Error of a surface at a run that it has not learnt from, in its own standard deviations.
+double error_at(const FractureRun& run, const FractureSurface& surface, const CurveReading& reading) {
+  const Eigen::VectorXd expected = surface.predict(run.parameters);
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t r = 0; r < surface.rows().size(); ++r) {
+    const SurfaceRow& row = surface.rows()[r];
+    const auto value = value_of(shown_features(run.predictions[row.group], {}, reading), row.feature);
+    const double variance = surface.cross_validated_variance()[r];
+    if (!value || variance <= 0.0) continue;
+    squares += std::pow(*value - expected[r], 2) / variance;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+}  // namespace
+
+Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
+  const Procedure& procedure = settings.procedure;
+  Observations observations =
+      observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, procedure);
+  if (const auto few = too_few(observations.groups, procedure.noise)) throw TooFewSpecimens(in_words(*few));
+  std::shared_ptr<const FractureTests> fractures;
+  if (observations.has(tester::TestKind::toughness))
+    fractures =
+        std::make_shared<const FractureTests>(observations, settings.fidelity, settings.store, settings.threads);
+  const Basis basis =
+      basis_for(observations, centre_of(fractures.get(), settings), settings.ranges, procedure.constants);
+  Data data{observations, fractures, {}, FeatureModel(observations, basis, settings.fidelity), {}};
+  if (fractures) {
+    data.runs = runs_around(*fractures, basis, settings);
+    const auto surface = learnt_surface(data, basis, procedure.emulator);
+    data.model = data.model.with_surface(surface);
+    data.observations.emulator_variance = emulator_variance(data.observations, *surface);
+  }
+  data.effects = acting_effects(data.model, data.observations, procedure.fit);
+  return data;
+}
+
+LearntData learnt_at(const Data& data, const std::vector<material::ParameterSet>& sets, const EmulatorRules& rules) {
+  LearntData learnt{data, 0.0};
+  if (!data.fractures) return learnt;
+  const FractureSurface& before = *data.model.surface();
+  for (FractureRun& run : data.fractures->runs_at(sets, data.runs)) {
+    learnt.largest_error = std::max(learnt.largest_error, error_at(run, before, data.observations.reading));
+    learnt.data.runs.push_back(std::move(run));
+  }
+  if (learnt.data.runs.size() == data.runs.size()) return learnt;
+  const auto surface = learnt_surface(learnt.data, data.model.basis(), rules);
+  learnt.data.model = data.model.with_surface(surface);
+  learnt.data.observations.emulator_variance = emulator_variance(data.observations, *surface);
+  return learnt;
+}
+
+tester::Curve curve_at(const Data& data, int group, const FittedModel& fit) {
+  const Observation& g = data.observations.groups[group];
+  if (g.test == tester::TestKind::tensile)
+    return data.model.coupon_curve(g, data.model.map(fit.effects).coupon_parameters(fit.u));
+  if (g.test != tester::TestKind::toughness) return {};
+  const material::ParameterSet simulated = simulated_side(fit.parameters);
+  const auto eta = to_vector(simulated.toughness);
+  const auto distance_to = [&](const FractureRun& run) {
+    double distance = 0.0;
+    const auto other = to_vector(run.parameters.toughness);
+    for (const std::size_t i : sysid::kSearchedEta) distance += std::pow(std::log(eta[i] / other[i]), 2);
+    for (const material::Effect& effect : material::effect_library()) {
+      const auto strength = [&](const material::ParameterSet& set) {
+        return material::strength_of(effect.parameters.front(), material::extension_value(set.extensions, effect.name));
+      };
+      distance += std::pow((strength(simulated) - strength(run.parameters)) / 0.1, 2);
+    }
+    return distance;
+  };
+  const FractureRun& nearest = *std::ranges::min_element(data.runs, {}, distance_to);
+  const auto place = std::ranges::find(data.fractures->groups(), group) - data.fractures->groups().begin();
+  return sysid::observed(nearest.predictions[place], fit.parameters.extensions, {.batch_step = g.batch_step}).curve;
+}
+
+}  // namespace nacre::diagnosis

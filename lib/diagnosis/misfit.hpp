@@ -1,0 +1,26 @@
+#pragma once
+// Whether residuals are noise: chances of misfits and of contrasts by the bootstrap.
+
+#include <functional>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/evidence.hpp"
+
+namespace nacre::diagnosis {
+
+/// A number of every draw.
+std::vector<double> over_draws(const std::vector<DrawStatistics>& draws,
+                               const std::function<double(const DrawStatistics&)>& value);
+
+/// Contrasts of the base model's residuals with family-wise chances, strongest first.
+std::vector<Contrast> judged_contrasts(const Evidence& evidence);
+
+/// Chance of a misfit as large as the base's when it is true: the smaller of the omnibus and the contrast test, doubled
+/// because there are two of them.
+double chance_of_base_misfit(const Evidence& evidence);
+
+/// The same of another model.
+double chance_of_misfit(const Evidence& evidence, const FittedModel& fit);
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,64 @@
+#include "diagnosis/signatures.hpp"
+
+#include <algorithm>
+
+namespace nacre::diagnosis {
+namespace {
+
+/// These sizes of an effect, and of a two-sided one their negatives, in the order of a signature's changes.
+std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) {
+  std::vector<double> all(sizes.begin(), sizes.end());
+  if (!one_sided)
+    for (const double size : sizes) all.push_back(-size);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
+                                     const std::vector<std::string>& effects, std::span<const double> sizes) {
+  std::vector<Signature> signatures;
+  for (const std::string& effect : effects) {
+    std::vector<std::string> names = anchor.effects;
+    names.push_back(effect);
+    const CoordinateMap map = model.map(names);
+    const int own = anchor.u.size();
+    Signature signature{effect, {}, map.lower(own) >= 0.0};
+    std::vector<Eigen::VectorXd> points;
+    for (const double size : signed_sizes(sizes, signature.one_sided)) {
+      points.push_back(widened_start(anchor, map));
+      points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
+    }
+    signature.changes = model.predict(map, points).colwise() - anchor.predicted;
+    signatures.push_back(std::move(signature));
+  }
+  return signatures;
+}
+
+Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
+                                   const FittedModel& anchor, const Signature& signature, const FitRules& rules) {
+  std::vector<std::string> names = anchor.effects;
+  names.push_back(signature.effect);
+  const CoordinateMap map = model.map(names);
+  const Whitener whitener(observations.covariance());
+  const Eigen::Index own = anchor.u.size();
+  Eigen::VectorXd best = widened_start(anchor, map);
+  double least = anchor.chi2;
+  const std::vector<double> sizes = signed_sizes(rules.sizes, signature.one_sided);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    FittedModel shifted = anchor;
+    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
+    Eigen::VectorXd step;
+    const double chi2 = linear_refit(shifted, observations.values, whitener, &step);
+    if (chi2 >= least) continue;
+    least = chi2;
+    best = widened_start(anchor, map);
+    best.head(own) += step;
+    best[own] = sizes[i];
+  }
+  // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
+  if (best[own] == 0.0) best[own] = rules.sizes.front();
+  return best;
+}
+
+}  // namespace nacre::diagnosis

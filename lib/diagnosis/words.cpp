@@ -1,0 +1,416 @@
+#include "diagnosis/words.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "material/effect_words.hpp"
+#include "material/extensions.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// "0.5 pixels (90 % interval 0.45 to 0.55)"
+std::string with_interval(const FittedNumber& number, std::string_view unit) {
+  return fmt::format("{:.3g}{} (90 % interval {:.3g} to {:.3g})", number.value, material::unit_behind_number(unit),
+                     number.interval_low, number.interval_high);
+}
+
+/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and the further parameters of an effect.
+std::string size_in_words(const NamedEffect& e) {
+  std::string words = fmt::format("{} = {}", material::effect_in_words(e.name),
+                                  with_interval({e.parameter, e.interval_low, e.interval_high}, e.unit));
+  const auto& numbers = material::find_effect(e.name)->parameters;
+  for (std::size_t p = 0; p < e.further.size(); ++p)
+    words += fmt::format(", {} {}", numbers[p + 1].meaning, with_interval(e.further[p], numbers[p + 1].unit));
+  return words;
+}
+
+/// Both readings of a constant that layouts want otherwise than its own specimens; empty where the strongest contrast
+/// is of another kind.
+std::string constants_in_words(const Diagnosis& d) {
+  const std::optional<int> material = d.contrasts.front().view.material;
+  if (!material || !d.base_fit.modulus || !d.base_fit.coupon) return "";
+  const double in_layouts_pa = to_vector(*d.base_fit.modulus)[*material],
+               in_coupons_pa = to_vector(*d.base_fit.coupon)[*material];
+  return fmt::format(
+      " The base fits best with an E of the {} material of {:.3g} Pa in layouts, {:.2f} times that of its own "
+      "specimens: the model lacks an effect, or printing inside a layout changes the material (thesis 3.2.4).",
+      kConstantMaterials[*material], in_layouts_pa, in_layouts_pa / in_coupons_pa);
+}
+
+/// Behind "comes nearest, but": why the nearest effects have no name.
+std::string objection_in_words(const Finding& finding) {
+  switch (finding.reason) {
+    case Reason::weak_signal:
+      return fmt::format(
+          "{} has a signal-to-noise ratio of only {:.1f}: an unmodelled cause could look the same (a name needs "
+          "{:.1f}, "
+          "more replicates raise the ratio)",
+          finding.nearest.size() > 1 ? "the signature of one of them" : "its signature", finding.value, finding.needed);
+    case Reason::contrast:
+      return fmt::format("the contrast \"{}\" alone explains more: an unmodelled cause acts along it", finding.along);
+    case Reason::condition:
+      return fmt::format(
+          "one factor on all specimens of the same {} explains these data as well: an unmodelled cause may act along "
+          "it "
+          "(homogeneous coupons of each {} would show which)",
+          finding.along, finding.along);
+    default:
+      return fmt::format(
+          "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, "
+          "favour "
+          "a known effect by as much with probability {:.2f} (a name needs {:.2f} or less)",
+          finding.value, finding.needed);
+  }
+}
+
+/// The step that decided.
+std::string reason_in_words(const Diagnosis& d) {
+  const Finding& finding = d.finding;
+  switch (finding.reason) {
+    case Reason::residuals_are_noise:
+      return "no known effect improves the fit beyond chance, and the residuals are noise";
+    case Reason::no_effect_helps:
+      return "the residuals are larger than noise, but no known effect improves the fit beyond chance: an unmodelled "
+             "cause acts";
+    case Reason::residuals_stay:
+      return "even with the best one or two known effects the residuals stay larger than noise: an unmodelled cause "
+             "acts";
+    case Reason::at_bound: {
+      const material::Effect& effect = *material::find_effect(finding.nearest.front());
+      return fmt::format("{} comes nearest, but its size, {:.3g}{}, is at its bound: one beyond it may be the cause",
+                         material::effect_in_words(effect.name), finding.value,
+                         material::unit_behind_number(effect.parameters.front().unit));
+    }
+    case Reason::one_effect:
+      return "fitted jointly with the base model, it explains the data";
+    case Reason::two_effects:
+      return "no single effect explains the data, these two together do";
+    case Reason::other_material:
+      return fmt::format(
+          "the base model fits with {}, beyond three times the range of these inks: it is another material, which "
+          "needs "
+          "ranges of its own, or an effect is missing",
+          in_words(d.untold));
+    default:
+      return fmt::format("{} comes nearest, but {}", in_words(finding.nearest), objection_in_words(finding));
+  }
+}
+
+std::string models_in_words(const std::vector<std::vector<std::string>>& models) {
+  std::string text;
+  for (const auto& effects : models) text += (text.empty() ? "" : ", or ") + in_words(effects);
+  return text;
+}
+
+std::string named_in_words(const Diagnosis& d) {
+  std::string text = "The simulation lacks ";
+  for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
+  text += fmt::format(": {}.", reason_in_words(d));
+  if (d.gain) text += " " + gain_in_words(*d.gain) + choice_in_words(*d.gain);
+  return text;
+}
+
+std::string unexplained_in_words(const Diagnosis& d) {
+  const std::string text = fmt::format("The base model misfits, and no cause can be named: {}.", reason_in_words(d));
+  if (!lines_up(d))
+    return text + fmt::format(" The residuals line up with no contrast beyond chance; the largest are those of {}.",
+                              in_words(d.loudest));
+  const Contrast& strongest = d.contrasts.front();
+  return text +
+         fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", strongest.name,
+                     strongest.statistic) +
+         constants_in_words(d);
+}
+
+std::string verdict_in_words(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::base_sufficient:
+      return fmt::format("The base model is sufficient: {} (chance of a misfit as large: {:.3f}).", reason_in_words(d),
+                         d.p_misfit);
+    case Verdict::named:
+      return named_in_words(d);
+    case Verdict::ambiguous:
+      if (!d.untold.empty()) return fmt::format("These data cannot tell: {}.", reason_in_words(d));
+      return fmt::format(
+          "The base model misfits, and these data cannot tell which effect is the cause: {}.{} The next experiments "
+          "would separate them.",
+          models_in_words(d.possible),
+          d.common_ground.kind == CommonGround::Kind::nothing
+              ? ""
+              : fmt::format(" Common to all of them: {}.", in_words(d.common_ground)));
+    case Verdict::unexplained:
+      break;
+  }
+  return unexplained_in_words(d);
+}
+
+std::string other_materials_in_words(const std::vector<OtherMaterial>& materials) {
+  std::string text;
+  for (const OtherMaterial& other : materials)
+    text += fmt::format(
+        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
+        "it, or an error of the machine): layouts are judged against what was measured.",
+        kConstantMaterials[other.material], other.modulus_pa);
+  return text;
+}
+
+/// Why replicates that do not agree matter, and which they are.
+std::string disagreement_in_words(const std::vector<std::string>& out_of_line, Verdict verdict) {
+  if (out_of_line.empty()) return "";
+  constexpr std::size_t kShown = 3;
+  const std::vector<std::string> first(out_of_line.begin(), out_of_line.begin() + std::min(kShown, out_of_line.size()));
+  return fmt::format(" Caution: replicates do not agree ({}{}), and one wrong value {}: `nacre review` shows which.",
+                     fmt::join(first, ", "), out_of_line.size() > kShown ? ", ..." : "",
+                     verdict == Verdict::base_sufficient ? "makes scatter so large that it hides a misfit"
+                                                         : "looks like an unmodelled cause");
+}
+
+/// The element size is in the noise already, as the discretisation floor; the other choices ought not to matter at all.
+std::string discretisation_in_words(const std::vector<SanityCheck>& checks) {
+  std::string text;
+  for (const SanityCheck& check : checks) {
+    if (!check.numerical || check.changed == DiscretisationChange::half_element) continue;
+    text += fmt::format(
+        " Caution: {} changes the simulated {} by {:.1f} %, more than the data's noise: part of a misfit may be "
+        "discretisation error.",
+        in_words(check.changed), in_words(check.feature), 100.0 * check.largest);
+  }
+  return text;
+}
+
+std::string batches_in_words(const Diagnosis& d) {
+  const bool matter =
+      d.verdict == Verdict::unexplained ||
+      std::ranges::any_of(d.effects, [](const NamedEffect& effect) { return effect.name == "batch_drift"; });
+  if (!matter || d.cautions.disconnected_batches < 2) return "";
+  return fmt::format(
+      " Caution: the batches fall into {} sets without a common design, so that differences between batches look like "
+      "differences between designs: print one design in every batch.",
+      d.cautions.disconnected_batches);
+}
+
+std::string bounds_in_words(const Diagnosis& d) {
+  const std::vector<ModulusAtBound>& at_bounds = d.cautions.at_bounds;
+  if (d.verdict == Verdict::base_sufficient || !d.untold.empty() || at_bounds.empty()) return "";
+  return fmt::format(
+      " Caution: {} {} at the bound of the search. Are the inks others than the thesis'? They need ranges of their own "
+      "(docs/FORMATS.md, \"Reference tables\").",
+      in_words(at_bounds), at_bounds.size() == 1 ? "is" : "are");
+}
+
+std::string assumption_in_words(const Diagnosis& d) {
+  const std::vector<tester::TestKind>& unreplicated = d.cautions.unreplicated;
+  if (unreplicated.empty()) return "";
+  if (d.cautions.nothing_replicated)
+    return fmt::format(
+        " There are no replicates: a scatter of {:.3g} % was assumed, and every statement depends on it.",
+        100.0 * d.assumed_sd);
+  std::string tests;
+  for (const tester::TestKind test : unreplicated)
+    tests += (tests.empty() ? "" : " and ") + std::string(tester::to_string(test));
+  return fmt::format(" Specimens of the {} test have no replicates: a scatter of {:.3g} % was assumed for them.", tests,
+                     100.0 * d.assumed_sd);
+}
+
+/// "pulled ten times as fast "
+std::string_view rate_in_words(AddedTest kind) {
+  switch (kind) {
+    case AddedTest::faster_twin:
+    case AddedTest::faster_coupon:
+      return "ten times as fast";
+    case AddedTest::twin_between_rates:
+    case AddedTest::coupon_between_rates:
+      return "at a rate between those measured";
+    default:
+      return "";
+  }
+}
+
+std::string way_in_words(const TestWay& way) {
+  switch (way.kind) {
+    case AddedTest::turned_twin:
+      return "a twin printed turned by 90 degrees";
+    case AddedTest::faster_twin:
+    case AddedTest::twin_between_rates:
+      return fmt::format("a twin pulled {}", rate_in_words(way.kind));
+    case AddedTest::thinner_twin:
+      return "a twin of half the thickness";
+    case AddedTest::checkerboard:
+      return fmt::format("a checkerboard of period {}", way.period);
+    case AddedTest::laminate_across:
+      return fmt::format("a laminate of period {} across the pull", way.period);
+    case AddedTest::laminate_along:
+      return fmt::format("a laminate of period {} along the pull", way.period);
+    default:
+      break;
+  }
+  const std::string_view rate = rate_in_words(way.kind);
+  return fmt::format("a homogeneous coupon pulled {}{}to 2 % strain, back to 0.5 % and on", rate,
+                     rate.empty() ? "" : " ");
+}
+
+}  // namespace
+
+std::string in_words(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "the base model";
+  return material::effect_in_words(fmt::format("{}", fmt::join(effects, " with ")));
+}
+
+std::string in_words(const std::vector<ModulusAtBound>& moduli) {
+  std::vector<std::string> words;
+  for (const ModulusAtBound& each : moduli)
+    words.push_back(fmt::format("{} = {:.3g} Pa{}", material::modulus_parameter_names()[each.material], each.modulus_pa,
+                                each.of_coupons ? " of coupons" : ""));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string in_words(const PossibleTest& test) {
+  return way_in_words(test.way) + (test.batch_step > 0.0 ? ", in a new batch" : "");
+}
+
+std::string_view in_words(DiscretisationChange change) {
+  switch (change) {
+    case DiscretisationChange::half_time_step:
+      return "half the time step";
+    case DiscretisationChange::half_rate:
+      return "half the simulated rate";
+    case DiscretisationChange::doubled_recording:
+      return "doubled recording";
+    case DiscretisationChange::half_element:
+      break;
+  }
+  return "half the element size";
+}
+
+std::string in_words(const CommonGround& ground) {
+  switch (ground.kind) {
+    case CommonGround::Kind::nothing:
+      return "";
+    case CommonGround::Kind::effect:
+      return "effect " + ground.name;
+    case CommonGround::Kind::family:
+      return "family " + ground.name;
+    case CommonGround::Kind::material_side:
+      return "material side";
+    case CommonGround::Kind::measurement_side:
+      break;
+  }
+  return "measurement side";
+}
+
+std::string in_words(const RowsOf& rows) {
+  switch (rows.kind) {
+    case RowsOf::Kind::none:
+      return "";
+    case RowsOf::Kind::constants:
+      return "constants of layouts against those of coupons";
+    case RowsOf::Kind::moduli:
+      return "moduli";
+    case RowsOf::Kind::notched:
+      return "notched specimens";
+    case RowsOf::Kind::coupons:
+      break;
+  }
+  return rows.material.empty() ? "coupons" : rows.material + " coupons";
+}
+
+std::string in_words(const TooFew& few) {
+  return fmt::format(
+      "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
+      "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
+      few.layouts_needed, few.coupons_needed, few.layouts, few.coupons);
+}
+
+std::string left_out_in_words(const IncludedSpecimens& included) {
+  if (included.fractures_left_out == 0) return "";
+  return fmt::format(
+      " {} toughness specimens were left out, and with them effects on fracture alone (--fracture includes both).",
+      included.fractures_left_out);
+}
+
+std::string in_words(const Separated& separated) {
+  return fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors after their constants are refitted",
+                     in_words(separated.test), in_words(separated.by.feature), in_words(separated.one),
+                     in_words(separated.other), separated.by.errors);
+}
+
+std::string in_words(const UntoldMaterial& untold) {
+  return fmt::format(
+      "homogeneous {} specimens: layouts want an E of {:.3g} Pa, theirs would tell another material from an effect "
+      "that "
+      "the model lacks",
+      kConstantMaterials[untold.modulus.material], untold.modulus.modulus_pa);
+}
+
+std::string bundle_in_words(const PossibleTest& test) {
+  switch (test.way.kind) {
+    case AddedTest::checkerboard:
+      return "checkerboards of period 1, 2 and 5";
+    case AddedTest::laminate_across:
+    case AddedTest::laminate_along:
+      return "laminates of period 1, 2 and 5, across and along the pull";
+    default:
+      break;
+  }
+  if (is_twin(test.way.kind)) return fmt::format("{}, {} tests", in_words(test), tester::to_string(test.test));
+  return "homogeneous coupons at several rates, unloaded on the way";
+}
+
+std::string specimen_in_words(const PossibleTest& test) {
+  return fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(),
+                     test.conditions.orientation_deg, test.conditions.strain_rate_per_s, test.conditions.thickness_mm);
+}
+
+std::string gain_in_words(const Gain& gain) {
+  // Errors are of logarithms.
+  const double before = 100.0 * std::expm1(gain.held_out_error_before),
+               after = 100.0 * std::expm1(gain.held_out_error_after);
+  const std::string interval =
+      fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
+  const std::string_view designs =
+      gain.of_coupons ? "held-out coupons the mean error of slopes and stresses" : "held-out designs the mean error";
+  if (gain.interval_low > 0.0)
+    return fmt::format("On {} falls from {:.3g} to {:.3g} %, a reduction by {:.0f} % ({}).", designs, before, after,
+                       100.0 * gain.relative_reduction, interval);
+  if (gain.interval_high < 0.0)
+    return fmt::format(
+        "Yet on {} grows from {:.3g} to {:.3g} %: the cause is established, its use for predictions is not.", designs,
+        before, after);
+  return fmt::format(
+      "Its gain is not established: on {} is {:.3g} % without it and {:.3g} % with it (reduction {:.0f} %, {}).",
+      designs, before, after, 100.0 * gain.relative_reduction, interval);
+}
+
+std::string choice_in_words(const Gain& gain) {
+  std::string text;
+  if (gain.of_coupons) return text;
+  for (const FeatureGain& g : gain.features) {
+    const bool counts = g.feature == Feature::log_modulus || g.feature == Feature::log_toughness;
+    if (!counts || g.ranking.pairs == 0) continue;
+    text += fmt::format(" Of {} pairs of designs that differ measurably in {}, ", g.ranking.pairs, in_words(g.feature));
+    text += g.ranking.before == g.ranking.after
+                ? fmt::format("both models rank {} as measured.", g.ranking.after)
+                : fmt::format("the extended model ranks {} as measured, the base model {}.", g.ranking.after,
+                              g.ranking.before);
+  }
+  return text;
+}
+
+std::string summary_of(const Diagnosis& d) {
+  std::string text = verdict_in_words(d) + other_materials_in_words(d.cautions.other_materials) +
+                     disagreement_in_words(d.cautions.out_of_line, d.verdict) + discretisation_in_words(d.sanity) +
+                     batches_in_words(d);
+  if (d.cautions.replicates_are_equal)
+    text +=
+        " Caution: replicates agree to a twentieth of a per cent, which no printed specimens do: were their means "
+        "typed in for each? Enter the value of every specimen.";
+  return text + bounds_in_words(d) + assumption_in_words(d);
+}
+
+std::string undecided_in_words(const std::string& why) { return "These data cannot tell yet: " + why + "."; }
+
+}  // namespace nacre::diagnosis

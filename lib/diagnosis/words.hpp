@@ -1,0 +1,66 @@
+#pragma once
+// All sentences of a diagnosis for a person, made from its values.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/included_specimens.hpp"
+#include "diagnosis/possible_tests.hpp"
+#include "diagnosis/test_choice.hpp"
+
+namespace nacre::diagnosis {
+
+/// Extensions: "droplet mixing with rigid yield"; "the base model" for none.
+std::string in_words(const std::vector<std::string>& effects);
+/// "e_vw_pa = 1.39e+09 Pa, e_tb_pa = 3e+05 Pa of coupons"
+std::string in_words(const std::vector<ModulusAtBound>& moduli);
+/// "a twin printed turned by 90 degrees"
+std::string in_words(const PossibleTest& test);
+/// "half the element size"
+std::string_view in_words(DiscretisationChange change);
+/// "effect interface_anisotropy", "family geometry", "measurement side"; empty: nothing.
+std::string in_words(const CommonGround& ground);
+/// "soft coupons"; empty: no rows.
+std::string in_words(const RowsOf& rows);
+
+/// Why these are too few for a diagnosis, without a full stop.
+std::string in_words(const TooFew& few);
+
+/// A sentence with a space in front on specimens that are left out; empty where none are.
+std::string left_out_in_words(const IncludedSpecimens& included);
+
+/// Why a test is proposed: it separates two models, given by their effects; or it tells a material's own E.
+struct Separated {
+  const PossibleTest& test;
+  Separation by;
+  const std::vector<std::string>&one, &other;
+};
+std::string in_words(const Separated& separated);
+struct UntoldMaterial {
+  ModulusAtBound modulus;
+};
+std::string in_words(const UntoldMaterial& untold);
+
+/// What a plan adds together: "checkerboards of period 1, 2 and 5"; and one specimen of it.
+std::string bundle_in_words(const PossibleTest& test);
+std::string specimen_in_words(const PossibleTest& test);
+
+/// The gain of a named effect on designs that the fit has not seen, in a sentence: errors as per cent of E and T, and a
+/// gain (or a loss) only where the 90 % interval leaves no doubt of its sign. A cause may be sure and its gain not: the
+/// base imitates most of it there.
+std::string gain_in_words(const Gain& gain);
+
+/// Whether the choice of designs changes, in a sentence for each of E and T; empty where no two designs differ by
+/// enough.
+std::string choice_in_words(const Gain& gain);
+
+/// Verdict with its reason, gain, and everything that limits what the verdict is worth.
+std::string summary_of(const Diagnosis& diagnosis);
+
+/// Where nothing can be computed.
+std::string undecided_in_words(const std::string& why);
+
+}  // namespace nacre::diagnosis
