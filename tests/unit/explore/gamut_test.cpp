@@ -36,7 +36,8 @@ TEST(Changes, OfAGamutAndTheGamutTheyMakeOfItsBase) {
   auto now = base;
   now[3].performance.toughness_pa *= 2.0;
   for (const Evaluated& sample : some_gamut(2)) now.push_back(sample);
-  now = merge_gamuts(std::vector{now});
+  const std::vector<Evaluated> both[] = {now};
+  now = merge_gamuts(both);
   const auto changed = changes(base, now);
   EXPECT_EQ(changed.size(), now.size() - base.size() + 1);
   EXPECT_EQ(with_changes(base, changed), now);
