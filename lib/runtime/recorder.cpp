@@ -25,8 +25,8 @@ struct LastPiece {
   std::int64_t own_bytes = 0;  ///< beside the repeated state
 };
 
-/// Cuts a torn tail off an existing piece, and takes the state that it ends with.
-LastPiece mend(const std::filesystem::path& path, LatestState& latest) {
+/// Cuts a torn tail off an existing piece, and takes the state that it ends with where one is wanted.
+LastPiece mend(const std::filesystem::path& path, LatestState* latest) {
   LastPiece last;
   if (!std::filesystem::exists(path)) return last;
   LogReader reader(path);
@@ -36,7 +36,7 @@ LastPiece mend(const std::filesystem::path& path, LatestState& latest) {
       const auto record = reader.next();
       if (!record) break;
       ++last.records;
-      latest.take(record->channel, record->data);
+      if (latest != nullptr) latest->take(record->channel, record->data);
       if (record->channel == kPieceChannel) repeated_until = record->number + repeated_behind(*record);
       if (record->number > repeated_until) last.own_bytes += bytes_in_log(record->channel, record->data);
     } catch (const InputError&) {
@@ -122,7 +122,7 @@ Recorder::Recorder(RecorderOptions options) : state_(std::make_unique<State>()) 
   std::error_code ignored;  // the writer says why the file cannot be made
   if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path(), ignored);
   const std::vector<std::filesystem::path> pieces = pieces_of(log);
-  const LastPiece last = mend(pieces.back(), state_->latest);
+  const LastPiece last = mend(pieces.back(), state_->options.most_bytes > 0 ? &state_->latest : nullptr);
   state_->piece = static_cast<int>(pieces.size());
   state_->own_bytes = last.own_bytes;
   state_->writer = std::make_unique<LogWriter>(pieces.back(), last.records);
