@@ -27,7 +27,10 @@ int number_of(const fs::path& file, const fs::path& log) {
 
 std::int64_t repeated_behind(const LogRecord& mark) {
   const auto fields = unpack(mark.data);
-  return fields && fields->size() == 2 ? std::stoll(fields->back()) : 0;
+  std::int64_t count = 0;
+  if (fields && fields->size() == 2)
+    std::from_chars(fields->back().data(), fields->back().data() + fields->back().size(), count);
+  return count;
 }
 
 fs::path piece_of(const fs::path& log, int number) {

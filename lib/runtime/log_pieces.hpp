@@ -17,7 +17,7 @@ namespace nacre::runtime {
 /// The first record of a later piece: its number, and how many records behind it repeat the state.
 inline constexpr std::string_view kPieceChannel = "~piece";
 
-/// How many records behind such a mark repeat the state.
+/// How many records behind such a mark repeat the state; 0 where it is garbled.
 std::int64_t repeated_behind(const LogRecord& mark);
 
 /// File of the piece `number` (1: the log itself).

@@ -68,6 +68,16 @@ TEST_F(LogInPieces, WithoutOneInTheMiddleIsRefused) {
               ThrowsMessage<InputError>(HasSubstr("run-2.lcm: is missing, a piece of a log that goes on in ")));
 }
 
+TEST_F(LogInPieces, BehindAMarkThatIsGarbledNothingIsTakenForRepeated) {
+  write(1, {"a"});
+  LogWriter later(piece_of(log_, 2));
+  ASSERT_TRUE(later.append(1, kPieceChannel, pack({"2", "no number"})));
+  ASSERT_TRUE(later.append(1, "b", "bytes"));
+  ASSERT_TRUE(later.flush());
+  PiecesReader reader(log_);
+  EXPECT_THAT(read(reader), ElementsAre("a", "b"));
+}
+
 TEST_F(LogInPieces, TornAndDamagedPiecesGiveTheRest) {
   write(1, {"a", "b"});
   write(2, {"c", "d"}, {"a"});
