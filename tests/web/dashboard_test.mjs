@@ -328,6 +328,7 @@ test("what is pointed at stays while the gamut comes", async () => {
 
 test("a key that comes with the first frame finds the chart made", async () => {
   const other = await visit(`${live.url}#nodes`);
+  await other.locator('nav a[href$="/nodes"][aria-current="page"]').waitFor();
   const said = await other.evaluate(
     () =>
       new Promise((resolve) => {
