@@ -22,7 +22,7 @@ struct Options : FloorOptions {
   SpecimenPlan compared;
   material::FailureCriterion criterion = material::base_criterion();
   std::string criterion_name{material::to_string(criterion.kind)};
-  double strength_cv = material::kBaseStrengthCv;
+  double strength_cv = material::base_strength_cv();
 };
 
 FloorPlan plan_from(const Options& options) {

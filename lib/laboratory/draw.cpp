@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "material/criterion_strengths.hpp"
 
 namespace nacre::laboratory {
 namespace {
@@ -45,6 +46,8 @@ material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed) {
           .w_if_j_per_m3 = drawn(seed, "eta/w_if_j_per_m3", 3e6, 10e6),
           .gamma_per_s = drawn(seed, "eta/gamma_per_s", 2e5, 1e6)};
 }
+
+double draw_strength_cv(std::uint64_t seed) { return drawn(seed, "strength_cv", 0.06, 0.17); }
 
 CouponRatios draw_coupon_ratios(std::uint64_t seed) {
   constexpr double kLogSd = 0.08;
@@ -89,7 +92,10 @@ Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity) {
           .fidelity = fidelity,
           .noise = {},
           .modulus = draw_modulus_parameters(seed),
-          .toughness = draw_toughness_parameters(seed),
+          .toughness = material::with_strengths(draw_toughness_parameters(seed),
+                                                material::strength_ratio(material::base_criterion())),
+          .criterion = material::base_criterion(),
+          .strength_cv = draw_strength_cv(seed),
           .effects = draw_effects(seed)};
 }
 

@@ -232,6 +232,8 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
                    .rigid = coupons.number("rigid", 0.1, 10.0, 1.0),
                    .interface = coupons.number("interface", 0.1, 10.0, 1.0)};
   coupons.refuse_others();
+  truth.criterion = material::base_criterion();
+  truth.strength_cv = draw_strength_cv(truth.seed);
   read_failure(toughness, top.table("toughness"), source, truth);
   const material::ToughnessParameters drawn =
       material::with_strengths(draw_toughness_parameters(truth.seed), material::strength_ratio(truth.criterion));

@@ -260,9 +260,8 @@ void set_criterion(Raster& raster, const material::FailureCriterion& criterion) 
   if (criterion.kind == material::CriterionKind::element) return;
   HiddenLaw& law = raster.law;
   if (criterion.kind == material::CriterionKind::neighbourhood) raster.neighbourhood_m = criterion.radius_m;
-  if (criterion.kind == material::CriterionKind::crack_band && law.linear_softening == 0.0 &&
-      law.drawn_out_softening == 0.0)
-    law.linear_softening = criterion.softening;
+  if (criterion.kind == material::CriterionKind::crack_band)
+    (law.drawn_out_softening > 0.0 ? law.drawn_out_softening : law.linear_softening) += criterion.softening;
   for (double* softening : {&law.linear_softening, &law.drawn_out_softening})
     if (*softening > 0.0) *softening = (1.0 + *softening) * kTesterElementM / kElementM - 1.0;
 }

@@ -3,6 +3,7 @@
 // effects and its scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include
 // headers of this folder.
 
+#include <cmath>
 #include <cstdint>
 
 #include "material/parameters.hpp"
@@ -13,7 +14,7 @@ namespace nacre::laboratory {
 /// Relative standard deviations between replicates of one design; all lognormal with median 1.
 struct ReplicateNoise {
   double modulus = 0.015;
-  double toughness = 0.08;  ///< of T: stress and strain scatter together
+  double toughness = 0.03;  ///< of measuring T: stress and strain scatter together; specimens differ besides
   double strain = 0.01;     ///< of the strain axis of a curve; 0 <= strain <= toughness for T to scatter as declared
   bool operator==(const ReplicateNoise&) const = default;
 };
@@ -72,15 +73,15 @@ struct Truth {
   material::ModulusParameters modulus;  ///< of layouts
   CouponRatios coupons;
   material::ToughnessParameters toughness;  ///< thresholds as the testers mean them: at element size h
-  material::FailureCriterion criterion = {};
-  double strength_cv = 0.0;  ///< of W between voxels of half a pixel, by a law of its own (Weibull)
+  material::FailureCriterion criterion = {};  ///< `element`, 0: the thesis' model, where nothing else was read or drawn
+  double strength_cv = 0.0;                   ///< of W between voxels of half a pixel, by a law of its own (Weibull)
   HiddenEffects effects;
   bool operator==(const Truth&) const = default;
 };
 
-/// Variation of W between voxels: `strength_scatter` is the whole of it.
+/// Variation of W between voxels: `strength_scatter` adds to what there is.
 inline double variation_of_strength(const Truth& truth) {
-  return truth.effects.strength_scatter > 0.0 ? truth.effects.strength_scatter : truth.strength_cv;
+  return std::hypot(truth.effects.strength_scatter, truth.strength_cv);
 }
 
 }  // namespace nacre::laboratory

@@ -19,7 +19,9 @@ constexpr double kLargestRadius = 20.0, kSmallestSoftening = 0.1, kLargestSoften
 std::string_view to_string(CriterionKind kind) { return name_in(kCriteria, kind); }
 Result<CriterionKind> criterion_from_string(std::string_view name) { return value_in(kCriteria, "criterion", name); }
 
-FailureCriterion base_criterion() { return {.kind = CriterionKind::element}; }
+FailureCriterion base_criterion() { return {.kind = CriterionKind::crack_band}; }
+
+double base_strength_cv() { return 0.10; }
 
 std::string criterion_fault(const FailureCriterion& criterion) {
   if (to_string(criterion.kind) == "?") return fmt::format("criterion {} is none", static_cast<int>(criterion.kind));

@@ -26,8 +26,10 @@ struct FailureCriterion {
   double softening = 3.0;                        ///< v0 of `crack_band`, of unrefined elements
   bool operator==(const FailureCriterion&) const = default;
 };
-/// Of the base model: where neither file nor option names another.
+/// Of the base model, where neither file nor option names another
+/// (docs/decisions/0026-toughness-is-an-expectation.md).
 FailureCriterion base_criterion();
+double base_strength_cv();
 
 /// A sentence when the kind is none, or a number that it uses is out of range; else empty.
 std::string criterion_fault(const FailureCriterion& criterion);
@@ -35,8 +37,6 @@ std::string criterion_fault(const FailureCriterion& criterion);
 /// Values that strength_cv, the coefficient of variation of W between regions of half a pixel, may take beside 0.
 /// Prior of a fit: log-normal, median 0.10, factor 1.5.
 inline constexpr double kSmallestStrengthCv = 0.02, kLargestStrengthCv = 0.4;
-/// Of the base model.
-inline constexpr double kBaseStrengthCv = 0.0;
 bool is_strength_cv(double value);
 
 }  // namespace nacre::material

@@ -115,7 +115,7 @@ ParameterSet default_parameters(const FailureCriterion& criterion) {
                                  .gamma_per_s = 2.828e5},
                    .extensions = {},
                    .criterion = criterion,
-                   .strength_cv = kBaseStrengthCv};
+                   .strength_cv = base_strength_cv()};
   set.toughness = with_strengths(set.toughness, strength_ratio(criterion));
   return set;
 }

@@ -10,7 +10,7 @@ void set_criterion(fem::Grid& grid, int refinement, const material::FailureCrite
     grid.neighbourhood_m = criterion.radius_m;
   } else {
     grid.laws.is_crack_band = true;
-    if (softening == 0.0) softening = criterion.softening;
+    softening += criterion.softening;
   }
   if (softening > 0.0) softening = (1.0 + softening) * refinement - 1.0;
 }

@@ -7,7 +7,7 @@
 namespace nacre::tester {
 
 /// Sets the criterion of a grid of refined elements whose thresholds are those of `element`. The effect
-/// `progressive_damage` is the total v of a crack band; an element that its neighbourhood fails softens by it. Tails
+/// `progressive_damage` adds to the v0 of a crack band; an element that its neighbourhood fails softens by it. Tails
 /// are 1 + v(h) = (1 + v) h0 / h, where h0 is the size of unrefined elements. No change for `element`.
 void set_criterion(fem::Grid& grid, int refinement, const material::FailureCriterion& criterion);
 

@@ -61,7 +61,10 @@ std::string made(const Truth& truth) {
       sum += static_cast<double>(e % 977 + 1) *
              (raster.mu_pa[e] + raster.lambda_pa[e] +
               (std::isfinite(raster.threshold_j_per_m3[e]) ? raster.threshold_j_per_m3[e] : 0.0));
-    text += fmt::format("{:a} {} {} {} ", sum, raster.law.any(), raster.grips.side_stiffness_pa, raster.grips.tilt);
+    const HiddenLaw& law = raster.law;
+    text += fmt::format("{:a} {} {} {} {} {} {} {} {} {} ", sum, law.yield_pa.size(), law.inverse_limit.size(),
+                        law.eigenstrain.size(), law.overstress.size(), law.linear_softening, law.drawn_out_softening,
+                        law.tension_only, raster.grips.side_stiffness_pa, raster.grips.tilt);
   };
   const pattern::Design design = some_pattern();
   for (const double orientation_deg : {0.0, 90.0}) {

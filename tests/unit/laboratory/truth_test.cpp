@@ -13,6 +13,7 @@
 #include "laboratory/draw.hpp"
 #include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory_file.hpp"
+#include "material/criterion_strengths.hpp"
 #include "material/ranges.hpp"
 
 namespace nacre::laboratory {
@@ -100,7 +101,10 @@ TEST(LaboratoryFile, AbsentTablesAreDrawnFromTheSeedAndGivenKeysReplaceThem) {
   material::ModulusParameters expected = draw_modulus_parameters(9);
   expected.e_if_pa = 6e8;
   EXPECT_EQ(truth.modulus, expected);
-  EXPECT_EQ(truth.toughness, draw_toughness_parameters(9));
+  EXPECT_EQ(truth.criterion, material::base_criterion());
+  EXPECT_EQ(truth.toughness, material::with_strengths(draw_toughness_parameters(9),
+                                                      material::strength_ratio(material::base_criterion())));
+  EXPECT_EQ(truth.strength_cv, draw_strength_cv(9));
   EXPECT_EQ(truth.effects, HiddenEffects{});
   EXPECT_EQ(truth.fidelity, tester::Fidelity::preview);
 }

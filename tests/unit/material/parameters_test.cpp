@@ -47,7 +47,7 @@ TEST(Defaults, FileAndProgramAgree) {
 
 TEST(Defaults, LieInTheMiddleOfTheToughnessRanges) {
   const ToughnessVector eta = to_vector(default_parameters().toughness);
-  const auto ranges = thesis_ranges().toughness(FitTarget::microstructures);
+  const auto ranges = default_ranges().toughness(FitTarget::microstructures);
   for (std::size_t i = 0; i < eta.size(); ++i) EXPECT_NEAR(to_unit(ranges[i], eta[i]), 0.5, 1e-3) << ranges[i].name;
 }
 
