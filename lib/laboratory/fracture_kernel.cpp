@@ -1,5 +1,6 @@
 #include "laboratory/fracture_kernel.hpp"
 
+#include "laboratory/softening.hpp"
 #include "laboratory/vector_loops.hpp"
 
 namespace nacre::laboratory {
@@ -36,10 +37,10 @@ struct PointResponse {
           .jacobian = j};
 }
 
-}  // namespace
-
-NACRE_VECTOR_CLONES
-int advance_elements(const ElementRow& row, const ElementStep& step) {
+/// Softening elements keep a share of their forces; the others all or nothing.
+template <bool kSoftens>
+[[gnu::always_inline]] inline int advance(const ElementRow& row, const ElementStep& step, const SofteningRow& softening,
+                                          const SofteningLaw& law) {
   const int columns = row.columns;
   const float* wx0 = row.wx_lower;
   const float* wy0 = row.wy_lower;
@@ -52,6 +53,9 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
   float* mu_row = row.mu;
   float* lambda_row = row.lambda;
   const float* threshold = row.threshold;
+  const float* onset = softening.onset;
+  float* integrity = softening.integrity;
+  const SofteningShape shape(law);
   float* mean_energy = row.energy;
   float* x_lower = row.x_lower + 1;
   float* x_upper = row.x_upper + 1;
@@ -96,14 +100,22 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
     const float energy0 = q00.energy > q10.energy ? q00.energy : q10.energy;
     const float energy1 = q01.energy > q11.energy ? q01.energy : q11.energy;
     const float energy = energy0 > energy1 ? energy0 : energy1;
-    const bool fails = energy > threshold[c];
+    bool fails = energy > threshold[c];
+    float kept = 1.0f;
+    if constexpr (kSoftens) {
+      const float jacobian0 = q00.jacobian < q10.jacobian ? q00.jacobian : q10.jacobian;
+      const float jacobian1 = q01.jacobian < q11.jacobian ? q01.jacobian : q11.jacobian;
+      kept = soften(integrity[c], energy, onset[c], shape);
+      integrity[c] = kept;
+      fails = fails | is_spent(kept, jacobian0 < jacobian1 ? jacobian0 : jacobian1);
+    }
+    const float keep = fails ? 0.0f : kept;
     const bool stands = (q00.jacobian > 0.0f) & (q10.jacobian > 0.0f) & (q01.jacobian > 0.0f) & (q11.jacobian > 0.0f);
     mean_energy[c] = 0.25f * ((q00.energy + q10.energy) + (q01.energy + q11.energy));
     mu_row[c] = fails ? 0.0f : mu;
     lambda_row[c] = fails ? 0.0f : lambda;
     failures += fails ? 1 : 0;
     broken += stands ? 0 : 1;
-    const float keep = fails ? 0.0f : 1.0f;
     x_lower[c] = keep * (fax - fcx);
     x_upper[c] = keep * (fax + fcx);
     x_axial[c] = keep * fbx;
@@ -112,6 +124,17 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
     y_axial[c] = keep * fby;
   }
   return broken > 0 ? -1 - broken : failures;
+}
+
+}  // namespace
+
+NACRE_VECTOR_CLONES
+int advance_elements(const ElementRow& row, const ElementStep& step) { return advance<false>(row, step, {}, {}); }
+
+NACRE_VECTOR_CLONES
+int advance_softening_elements(const ElementRow& row, const ElementStep& step, const SofteningRow& softening,
+                               const SofteningLaw& law) {
+  return advance<true>(row, step, softening, law);
 }
 
 NACRE_VECTOR_CLONES

@@ -35,6 +35,21 @@ struct ElementStep {
 /// elements have J <= 0 or not a number.
 int advance_elements(const ElementRow& row, const ElementStep& step);
 
+/// How stress falls behind the onset of failure; 0: not by that law.
+struct SofteningLaw {
+  float linear = 0.0f, drawn_out = 0.0f;
+};
+
+/// What a row of softening elements remembers.
+struct SofteningRow {
+  const float* onset;  ///< energy density at which an element starts to break, J/m^3
+  float* integrity;    ///< share of its stress that is left
+};
+
+/// As advance_elements(), of elements that soften from their onset to their threshold; advances the history.
+int advance_softening_elements(const ElementRow& row, const ElementStep& step, const SofteningRow& softening,
+                               const SofteningLaw& law);
+
 /// One row of nodes between the elements below (their forces stand in `carry`) and above it.
 struct NodeRow {
   int columns = 0;

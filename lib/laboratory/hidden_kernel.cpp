@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "laboratory/softening.hpp"
 #include "laboratory/vector_loops.hpp"
 
 #define NACRE_ALWAYS_INLINE [[gnu::always_inline]] inline
@@ -117,28 +118,6 @@ NACRE_ALWAYS_INLINE Stress respond(float h11, float h12, float h21, float h22, c
           .jacobian = f1 * f2 - h12 * h21};
 }
 
-/// Which softening it is, as weights: choices between three would keep the loop from becoming vector code.
-struct Softening {
-  float v, w, linear, drawn_out, none;
-  explicit Softening(const HiddenStep& step)
-      : v(larger(step.linear_softening, 1e-6f)),
-        w(larger(step.drawn_out_softening, 1e-6f)),
-        linear(step.linear_softening > 0.0f && step.drawn_out_softening == 0.0f ? 1.0f : 0.0f),
-        drawn_out(step.drawn_out_softening > 0.0f ? 1.0f : 0.0f),
-        none(1.0f - linear - drawn_out) {}
-};
-
-constexpr float kSpent = 0.1f;  // share of the stress that is left
-constexpr float kFlat = 0.1f;   // share of the area
-
-/// What it leaves at s = sqrt(energy / onset).
-NACRE_ALWAYS_INLINE float left_at(float s, const Softening& softening) {
-  const float linear = larger((1.0f + softening.v - s) / (s * softening.v), 0.0f);
-  const float x = 1.0f + (s - 1.0f) / softening.w;
-  const float left = softening.linear * linear + softening.drawn_out / (x * x * x * s) + softening.none;
-  return s > 1.0f ? left : 1.0f;
-}
-
 }  // namespace
 
 NACRE_VECTOR_CLONES
@@ -154,7 +133,7 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
   float *y_lower = row.y_lower + 1, *y_upper = row.y_upper + 1, *y_axial = row.y_axial + 1;
   const int columns = row.columns;
   const HiddenStep law = hidden_step;
-  const Softening softening(hidden_step);
+  const SofteningShape softening(hidden_step.softening);
   const HiddenRow past = hidden;  // its pointers stay where they are
   int failures = 0, broken = 0;
   NACRE_INDEPENDENT_ITERATIONS
@@ -190,12 +169,10 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
     const Stress q[4] = {at_point(0, -1.0f, -1.0f), at_point(1, 1.0f, -1.0f), at_point(2, -1.0f, 1.0f),
                          at_point(3, 1.0f, 1.0f)};
     const float energy = larger(larger(q[0].energy, q[1].energy), larger(q[2].energy, q[3].energy));
-    const float s = std::sqrt(larger(energy, 0.0f) / past.onset[c]);
-    const float integrity = smaller(past.integrity[c], left_at(s, softening));
+    const float integrity = soften(past.integrity[c], energy, past.onset[c], softening);
     past.integrity[c] = integrity;
     const float jacobian = smaller(smaller(q[0].jacobian, q[1].jacobian), smaller(q[2].jacobian, q[3].jacobian));
-    // What has softened so far and is squeezed flat is gone: a long tail would keep it until it turns inside out.
-    const bool fails = (energy > threshold[c]) | ((integrity < kSpent) & (jacobian < kFlat));
+    const bool fails = (energy > threshold[c]) | is_spent(integrity, jacobian);
     const bool stands = jacobian > 0.0f;
     mean_energy[c] = live ? 0.25f * ((q[0].energy + q[1].energy) + (q[2].energy + q[3].energy)) : 0.0f;
     mu_row[c] = fails ? 0.0f : mu;

@@ -22,7 +22,7 @@ struct HiddenRow {
 struct HiddenStep {
   float relaxed = 0.0f;  ///< 1 - exp(-dt / tau)
   float eigen_scale = 1.0f;
-  float linear_softening = 0.0f, drawn_out_softening = 0.0f;
+  SofteningLaw softening = {};
   float tension_only = 0.0f;
 };
 

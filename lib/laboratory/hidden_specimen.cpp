@@ -52,7 +52,7 @@ double mean_modulus(const Raster& raster) {
 }
 
 HiddenSpecimen::HiddenSpecimen(const Raster& raster, double time_step_s)
-    : stride_(static_cast<std::size_t>(raster.columns) + 32) {
+    : stride_(static_cast<std::size_t>(raster.columns) + 32), only_softens_(raster.law.only_softens()) {
   const HiddenLaw& law = raster.law;
   const std::vector<double> none;
   flow_limit_ = padded(raster, none, kNever, stride_);
@@ -77,8 +77,8 @@ HiddenSpecimen::HiddenSpecimen(const Raster& raster, double time_step_s)
   for (auto& point : viscous_) point.fill(zero);
   step_ = {.relaxed = law.overstress.empty() ? 0.0f : static_cast<float>(-std::expm1(-time_step_s / law.relaxation_s)),
            .eigen_scale = 1.0f,
-           .linear_softening = static_cast<float>(law.linear_softening),
-           .drawn_out_softening = static_cast<float>(law.drawn_out_softening),
+           .softening = {.linear = static_cast<float>(law.linear_softening),
+                         .drawn_out = static_cast<float>(law.drawn_out_softening)},
            .tension_only = static_cast<float>(law.tension_only)};
 }
 
@@ -88,6 +88,10 @@ void HiddenSpecimen::begin_to_soften(std::size_t at, float energy_j_per_m3) {
 }
 
 int HiddenSpecimen::advance(int row, ElementRow elements, const ElementStep& step) {
+  elements.threshold = row_of(threshold_, row);
+  if (only_softens_)
+    return advance_softening_elements(
+        elements, step, {.onset = row_of(onset_, row), .integrity = row_of(integrity_, row)}, step_.softening);
   HiddenRow hidden{};
   hidden.flow_limit = row_of(flow_limit_, row);
   hidden.inverse_limit = row_of(inverse_limit_, row);
@@ -100,7 +104,6 @@ int HiddenSpecimen::advance(int row, ElementRow elements, const ElementStep& ste
     hidden.work[point] = row_of(work_[point], row);
     for (std::size_t i = 0; i < 3; ++i) hidden.viscous[point][i] = row_of(viscous_[point][i], row);
   }
-  elements.threshold = row_of(threshold_, row);
   return advance_hidden_elements(elements, step, hidden, step_);
 }
 

@@ -24,7 +24,7 @@ class HiddenSpecimen {
   /// Sets the eigenstrains to this share of their values.
   void shrink(double share) { step_.eigen_scale = static_cast<float>(share); }
 
-  bool softens() const { return step_.linear_softening > 0.0f || step_.drawn_out_softening > 0.0f; }
+  bool softens() const { return step_.softening.linear > 0.0f || step_.softening.drawn_out > 0.0f; }
   /// The element at that place of padded rows softens from this energy density (J/m^3) on.
   void begin_to_soften(std::size_t at, float energy_j_per_m3);
 
@@ -32,6 +32,7 @@ class HiddenSpecimen {
   float* row_of(std::vector<float>& field, int row) { return &field[static_cast<std::size_t>(row) * stride_]; }
 
   std::size_t stride_;
+  bool only_softens_;         ///< nothing else is hidden: the simpler kernel does
   float last_energy_ = 1.0f;  ///< energy density over that of the onset, at which an element is gone
   HiddenStep step_;
   std::vector<float> flow_limit_, inverse_limit_, eigenstrain_, overstress_, onset_, threshold_, integrity_;

@@ -53,10 +53,13 @@ struct HiddenLaw {
   double relaxation_s = 0.0;          ///< in the time of the pull
   double linear_softening = 0.0, drawn_out_softening = 0.0;
   double tension_only = 0.0;
-  bool any() const {
+  bool softens() const { return linear_softening > 0.0 || drawn_out_softening > 0.0; }
+  bool remembers() const {
     return !yield_pa.empty() || !inverse_limit.empty() || !eigenstrain.empty() || !overstress.empty() ||
-           linear_softening > 0.0 || drawn_out_softening > 0.0 || tension_only > 0.0;
+           tension_only > 0.0;
   }
+  bool any() const { return softens() || remembers(); }
+  bool only_softens() const { return softens() && !remembers(); }
 };
 
 /// How the grips hold a specimen.

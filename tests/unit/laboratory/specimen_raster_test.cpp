@@ -8,6 +8,7 @@
 #include "laboratory/draw.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
+#include "tester/failure_criterion.hpp"
 #include "tester/fracture_test.hpp"
 
 namespace nacre::laboratory {
@@ -23,6 +24,7 @@ material::ParameterSet parameters_of(const Truth& truth) {
   material::ParameterSet parameters = material::thesis_parameters();
   parameters.modulus = truth.modulus;
   parameters.toughness = truth.toughness;
+  parameters.criterion = truth.criterion;
   return parameters;
 }
 
@@ -62,8 +64,9 @@ void expect_same_constants(const Truth& truth, const material::ParameterSet& par
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
   for (const pattern::Layout& layout : sample_layouts()) {
     const Raster raster = fracture_raster(truth, layout, {.orientation_deg = orientation_deg}, size);
-    const fem::Grid grid = tester::assemble(layout, parameters, {.orientation_deg = orientation_deg},
-                                            tester::AssemblyTarget::toughness, 2, 1, 2);
+    fem::Grid grid = tester::assemble(layout, parameters, {.orientation_deg = orientation_deg},
+                                      tester::AssemblyTarget::toughness, 2, 1, 2);
+    tester::set_criterion(grid, 2, parameters.criterion);
     ASSERT_EQ(raster.columns, grid.columns);
     ASSERT_EQ(raster.rows, grid.rows);
     for (std::size_t e = 0; e < raster.mu_pa.size(); ++e) {
