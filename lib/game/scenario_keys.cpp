@@ -256,8 +256,8 @@ std::vector<ScenarioKey> make_proposal_keys() {
                         at(table, &ProposalSettings::designs)),
       whole_number<int>(
           "proposal", "redraws",
-          "further realisations (perturbed parameters) of every candidate's fracture; its T is their mean", 0, 100,
-          at(table, &ProposalSettings::realisations)),
+          "further specimens of every candidate; its T is their mean (where all are alike: perturbed parameters)", 0,
+          100, at(table, &ProposalSettings::realisations)),
   };
 }
 

@@ -9,7 +9,8 @@
 
 namespace nacre::laboratory {
 
-/// Material constants of this seed (W by the criterion `element`), near those that microstructures show (Table A.2) and different from the bulk's.
+/// Material constants of this seed (W by the criterion `element`), near those that microstructures show (Table A.2) and
+/// different from the bulk's.
 material::ModulusParameters draw_modulus_parameters(std::uint64_t seed);
 material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed);
 

@@ -17,11 +17,17 @@ std::string deviation(double predicted, double measured) {
   return share > 0.0 ? "+" + percent(share) : percent(share);
 }
 
+/// With the scatter of specimens, as measured values have it.
+Cell predicted_toughness(const wire::ProposedDesign& proposal) {
+  if (proposal.specimens < 2) return mpa_cell(proposal.toughness_pa);
+  return shown_cell(with_error(proposal.toughness_pa * 1e-6, proposal.toughness_sd_pa * 1e-6));
+}
+
 /// Predicted and measured E and T; `missing`: what stands for measured values where there are none.
 std::string performance_table(const wire::ProposedDesign& proposal, const MeasuredPattern* measured,
                               const std::string& missing) {
   ExhibitTable table{.name = "", .columns = {{"", ""}, {"", "E (GPa)"}, {"", "T (MPa)"}}};
-  table.add({text_cell("predicted"), gpa_cell(proposal.modulus_pa), mpa_cell(proposal.toughness_pa)});
+  table.add({text_cell("predicted"), gpa_cell(proposal.modulus_pa), predicted_toughness(proposal)});
   if (measured != nullptr) {
     table.add({text_cell("measured"),
                shown_cell(with_error(measured->mean.modulus_pa * 1e-9, measured->modulus_sd_pa * 1e-9)),

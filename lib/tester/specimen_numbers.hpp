@@ -6,7 +6,8 @@
 namespace nacre::tester {
 
 inline constexpr int kSearchSpecimen = 0;               ///< one a sample
-inline constexpr int kFirstPredictionSpecimen = 1;      ///< of a design's predicted T ...
+inline constexpr int kFirstSelectionSpecimen = 1;       ///< of a candidate's T: at most 100
+inline constexpr int kFirstPredictionSpecimen = 200;    ///< of a design's predicted T ...
 inline constexpr int kPredictionSpecimens = 8;          ///< ... so many, unless asked otherwise
 inline constexpr int kFirstCalibrationSpecimen = 1000;  ///< one an evaluation
 

@@ -99,7 +99,9 @@ struct GamutChunk {
 struct ProposedDesign {
   pattern::Design design;
   double modulus_pa = 0.0;
-  double toughness_pa = 0.0;
+  double toughness_pa = 0.0;     ///< mean over specimens that did not choose it
+  double toughness_sd_pa = 0.0;  ///< between them, over n - 1; 0 where T is that of the selection
+  int specimens = 0;             ///< 0 where T is that of the selection
   int bin = -1;
   std::string reason;
   bool operator==(const ProposedDesign&) const = default;
@@ -108,6 +110,8 @@ struct ProposedDesign {
     field("design", m.design);
     field("modulus_pa", m.modulus_pa, kPressurePa);
     field("toughness_pa", m.toughness_pa, kPressurePa);
+    field("toughness_sd_pa", m.toughness_sd_pa, kPressurePa);
+    field("specimens", m.specimens, kCounted);
     field("bin", m.bin, Range{-1, 10'000});
     field("reason", m.reason);
   }

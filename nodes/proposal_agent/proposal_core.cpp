@@ -44,7 +44,7 @@ runtime::Outputs ProposalCore::step(const runtime::Input& input) {
 
 void ProposalCore::accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs) {
   if (work.id.starts_with("search/")) return accept_batch(work, outputs);
-  accept_proposal(work, outputs);
+  accept_selection(work, outputs);
 }
 
 void ProposalCore::accept_model(const std::string& payload, runtime::Outputs& outputs) {
@@ -142,6 +142,12 @@ void ProposalCore::accept_response(const std::string& payload, runtime::Outputs&
     if (response && round_->realisations->take(request_id, *response)) request_realisations(outputs);
     return;
   }
+  if (round_->predictions && round_->predictions->waits_for(request_id)) {
+    const auto response = collector_.add(*std::move(part));
+    if (response && round_->predictions->take(request_id, *response))
+      publish_proposal(round_->predictions->proposal(), outputs);
+    return;
+  }
   const auto branch = std::find_if(round_->branches.begin(), round_->branches.end(),
                                    [&](const Branch& each) { return each.waits_for(request_id); });
   if (branch == round_->branches.end()) return;  // answered before, or not ours
@@ -182,18 +188,27 @@ void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
                                .simulations = simulations() + round_->realisations->simulated()})});
 }
 
-void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs) {
+void ProposalCore::accept_selection(const runtime::WorkDone& work, runtime::Outputs& outputs) {
   const auto proposal = wire::read<wire::Proposal>(work.result);
   if (!round_ || !proposal || proposal->round != round_->model.round) {
     return log(outputs, runtime::LogLevel::warning,
                "the result of " + work.id + " is ignored: no selection is awaited");
   }
-  outputs.messages.push_back({"PROPOSAL", work.result});
+  round_->predictions.emplace(*proposal);
+  const auto requests = round_->predictions->requests(request_to_farm(),
+                                                      fmt::format("proposal_agent/r{}/predicted", round_->model.round));
+  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  if (requests.empty()) publish_proposal(round_->predictions->proposal(), outputs);
+}
+
+/// Ends the round.
+void ProposalCore::publish_proposal(wire::Proposal proposal, runtime::Outputs& outputs) {
+  outputs.messages.push_back({"PROPOSAL", wire::write(proposal)});
   log(outputs, runtime::LogLevel::info,
-      fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further realisations; gamut "
-                  "hypervolume {:.4g} GPa MPa",
-                  proposal->round, proposal->designs.size(), round_->found.size(), round_->realisations->simulated(),
-                  proposal->gamut_hypervolume_staircase));
+      fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further fracture tests; "
+                  "gamut hypervolume {:.4g} GPa MPa",
+                  proposal.round, proposal.designs.size(), round_->found.size(), round_->realisations->simulated(),
+                  proposal.gamut_hypervolume_staircase));
   last_parameters_ = game::material_side(round_->model.parameters);
   last_found_ = std::move(round_->found);
   last_gamut_ = round_->realisations->gamut();
@@ -210,7 +225,12 @@ runtime::Status ProposalCore::status() const {
             .finished = finished_};
   }
   if (round_->realisations && !round_->selecting)
-    return {.phase = "simulating realisations of the best designs",
+    return {.phase = "simulating further specimens of the best designs",
+            .round = round_->model.round,
+            .progress = -1.0,
+            .finished = false};
+  if (round_->predictions)
+    return {.phase = "simulating further specimens of the chosen designs",
             .round = round_->model.round,
             .progress = -1.0,
             .finished = false};

@@ -11,6 +11,7 @@
 
 #include "game/scenario.hpp"
 #include "proposal_agent/branch.hpp"
+#include "proposal_agent/predictions.hpp"
 #include "proposal_agent/realisations.hpp"
 #include "runtime/node_core.hpp"
 #include "wire/convert.hpp"
@@ -33,13 +34,14 @@ class ProposalCore : public runtime::NodeCore {
     std::vector<explore::Evaluated> found;     ///< by all branches, each T of one simulation
     std::optional<Realisations> realisations;  ///< once every branch has ended
     bool selecting = false;
+    std::optional<Predictions> predictions;  ///< of the designs selected
   };
 
   void accept_model(const std::string& payload, runtime::Outputs& outputs);
   void accept_response(const std::string& payload, runtime::Outputs& outputs);
   void accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs);
-  void accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs);
+  void accept_selection(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void start_due_round(runtime::Outputs& outputs);
   explore::SearchSettings search_settings(int branch) const;
   void ask_next(Branch& branch, runtime::Outputs& outputs);
@@ -47,6 +49,7 @@ class ProposalCore : public runtime::NodeCore {
   wire::SimulateRequest request_to_farm() const;
   void request_realisations(runtime::Outputs& outputs);
   void publish_gamut(runtime::Outputs& outputs);
+  void publish_proposal(wire::Proposal proposal, runtime::Outputs& outputs);
   int simulations() const;
 
   game::Scenario scenario_;

@@ -78,7 +78,7 @@ std::vector<wire::SimulateRequest> Realisations::requests_of(const std::vector<p
     wire::SimulateRequest again = model;
     again.modulus = false;
     if (are_specimens_) {
-      again.first_specimen = tester::kFirstPredictionSpecimen;
+      again.first_specimen = tester::kFirstSelectionSpecimen;
       again.specimens = count_;
     } else {
       // The same perturbed parameters for every design and round: designs are compared like with like.

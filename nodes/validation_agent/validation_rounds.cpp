@@ -110,7 +110,8 @@ void ValidationCore::predict_out_of_sample() {
   if (predicted_set_.empty() || !game::has_measurement_side(model_)) return finish_out_of_sample(proposed_);
   // A prediction as recorded by the testing machine needs its curve, which a proposal does not carry: requested again,
   // and taken from the farm's cache.
-  sysid::WantedEvaluation evaluation{.id = "0", .parameters = model_, .modulus = true, .toughness = true, .items = {}};
+  sysid::WantedEvaluation evaluation =
+      sysid::as_prediction({.id = "0", .parameters = model_, .modulus = true, .toughness = true, .items = {}});
   for (std::size_t item = 0; item < predicted_set_.size(); ++item) evaluation.items.push_back(item);
   phase_ = Phase::predicting;
   ask_farm("h", {evaluation}, predicted_set_);

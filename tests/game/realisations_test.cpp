@@ -34,7 +34,7 @@ wire::SimulateRequest model() {
   wire::SimulateRequest request;
   request.modulus = request.toughness = true;
   request.fidelity = tester::Fidelity::tiny;
-  request.parameters = material::default_parameters();
+  request.parameters = material::thesis_parameters();
   return request;
 }
 

@@ -81,18 +81,21 @@ TEST_F(CommandLine, SimulateGivesTheMeanOverSpecimens) {
   EXPECT_NEAR(entry["toughness_se_pa"].get<double>(), std::sqrt(squares / 6.0), 1e-6 * sum_pa);
   EXPECT_GT(entry["toughness_se_pa"].get<double>(), 0.0);
   EXPECT_EQ(entry["specimens"], 3);
-  EXPECT_EQ(entry["criterion"], "element");
+  EXPECT_EQ(entry["criterion"], "crack_band");
   EXPECT_TRUE(entry["crack"].is_null()) << "of refined elements";
   for (const char* file : {"many/577fffe9fffdef-0.csv", "many/577fffe9fffdef-2.csv"})
     EXPECT_TRUE(fs::exists(path(file))) << file;
 
-  const auto plain = nlohmann::json::parse(with({"--json"}).out)[0];
-  EXPECT_FALSE(plain.contains("toughness_se_pa"));
+  const auto base = nlohmann::json::parse(with({"--json"}).out)[0];
+  EXPECT_EQ(base["specimens"], 8);
+  EXPECT_EQ(base["strength_cv"], 0.1);
+  const auto plain = nlohmann::json::parse(with({"--criterion", "element", "--strength-cv", "0", "--json"}).out)[0];
+  EXPECT_FALSE(plain.contains("toughness_se_pa")) << "the thesis' model, whose specimens are all alike";
   const auto with_length = nlohmann::json::parse(with({"--criterion", "neighbourhood", "--json"}).out)[0];
   EXPECT_EQ(with_length["criterion"], "neighbourhood");
-  EXPECT_NE(with_length["toughness_pa"], plain["toughness_pa"]);
+  EXPECT_NE(with_length["toughness_pa"], base["toughness_pa"]);
   expect_refused(with({"--criterion", "cohesive"}), {"--criterion", "neighbourhood"});
-  EXPECT_THAT(with({"--specimens", "2"}).err, HasSubstr("all alike"));
+  EXPECT_THAT(with({"--specimens", "2", "--strength-cv", "0"}).err, HasSubstr("all alike"));
   expect_refused(with({"--strength-cv", "0.5"}), {"--strength-cv", "0.02 to 0.4"});
   expect_refused(with({"--specimens", "0"}), {"--specimens"});
   expect_refused(with({"--refine", "2", "--film", path("fine.gif")}), {"--refine"});
@@ -109,9 +112,9 @@ TEST_F(CommandLine, SimulateLeavesFieldsOfATestNotRunNull) {
 }
 
 TEST_F(CommandLine, SimulateWritesCurvesFilmsAndPictures) {
-  const Outcome outcome =
-      run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--curves", path("curves"),
-                 "--frames", path("frames"), "--frame-count", "5", "--film", path("pictures"), "--film-width", "400"});
+  const Outcome outcome = run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--specimens",
+                                     "1", "--curves", path("curves"), "--frames", path("frames"), "--frame-count", "5",
+                                     "--film", path("pictures"), "--film-width", "400"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(fs::file_size(path("curves/mix_0.65.csv")), 100U);
   EXPECT_GT(fs::file_size(path("frames/mix_0.65.film")), 1000U);

@@ -69,7 +69,7 @@ class AskerCore : public runtime::NodeCore {
     proposal.fidelity = tester::Fidelity::tiny;
     proposal.simulations = inputs_;
     for (const auto& [request, modulus_pa] : responses_)
-      proposal.designs.push_back({design_of(request), modulus_pa, 0.0, -1, "echo"});
+      proposal.designs.push_back({.design = design_of(request), .modulus_pa = modulus_pa, .reason = "echo"});
     outputs.messages.push_back({"PROPOSAL", wire::write(proposal)});
     finished_ = true;
   }

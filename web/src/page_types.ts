@@ -98,6 +98,8 @@ export interface Proposed {
   design: string;
   modulus_pa: number;
   toughness_pa: number;
+  toughness_sd_pa: number;
+  specimens: number;
   bin: number;
   reason: string;
 }
@@ -150,6 +152,8 @@ export interface ProposedInRound {
   design: string;
   modulus_pa: number;
   toughness_pa: number;
+  toughness_sd_pa: number;
+  specimens: number;
   bin: number;
   reason: string;
 }

@@ -1,15 +1,18 @@
 // Designs proposed for the laboratory, to be approved or rejected, and designs of a person's own.
 
 import type { Family, Laboratory, Proposed } from "./api";
-import { gpa, mpa, sentence } from "./numbers";
+import { gpa, MPA, mpa, sentence, withError } from "./numbers";
 import { DesignChip, MaterialKey, Name, Notice, Reason, Unit, useDraft } from "./parts";
 import { useSubmit } from "./submit";
+
+/** A design; those of the family stage have no scatter. */
+type Offered = Pick<Proposed, "design" | "modulus_pa" | "toughness_pa" | "reason"> & Partial<Proposed>;
 
 /** Designs that may wait for an approval: of a round, or of the family stage after the last one. */
 interface Offer {
   title: string;
   round: number;
-  designs: Omit<Proposed, "bin">[];
+  designs: Offered[];
   /** No round follows that would measure them. */
   isLate: boolean;
 }
@@ -45,6 +48,11 @@ function outlook(offer: Offer, waits: boolean, approval: boolean): string {
   if (offer.isLate) return "Proposed after the last round: these designs are not measured any more.";
   if (!approval) return "This game does not wait for approval: what is proposed is ordered.";
   return waits ? "The game waits: approve or reject each design." : "";
+}
+
+/** With the scatter of its specimens, where it is the mean of several. */
+function predictedToughness({ toughness_pa, toughness_sd_pa, specimens }: Offered): string {
+  return (specimens ?? 0) > 1 ? withError(toughness_pa * MPA, (toughness_sd_pa ?? 0) * MPA) : mpa(toughness_pa);
 }
 
 export function Proposals({
@@ -103,7 +111,7 @@ export function Proposals({
               <div>
                 <Name design={p.design} />
                 <p>
-                  Predicted: E {gpa(p.modulus_pa)} GPa, T {mpa(p.toughness_pa)} MPa
+                  Predicted: E {gpa(p.modulus_pa)} GPa, T {predictedToughness(p)} MPa
                 </p>
                 <Reason text={p.reason} />
                 <p>

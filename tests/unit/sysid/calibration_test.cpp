@@ -121,6 +121,7 @@ Calibrated finish(Calibration& calibration, const std::vector<Replicates>& measu
 CalibrationSettings settings() {
   CalibrationSettings result;
   result.start = material::thesis_parameters();
+  result.ranges = material::thesis_ranges();
   return result;
 }
 

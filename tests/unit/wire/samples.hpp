@@ -123,7 +123,7 @@ inline CalibratedFamily family() {
 inline Proposal proposal() {
   Proposal proposal;
   proposal.round = 1;
-  proposal.designs = {{pattern::Pattern(0x577fffe9fffdef), 1e9, 2e6, 3, "radial bin 3"}};
+  proposal.designs = {{pattern::Pattern(0x577fffe9fffdef), 1e9, 2e6, 1e5, 8, 3, "radial bin 3"}};
   return proposal;
 }
 
