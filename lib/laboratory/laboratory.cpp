@@ -26,9 +26,9 @@ using measurement::SpecimenRecord;
 using tester::TestKind;
 
 constexpr int kCurvePoints = 200;
-/// Unnotched coupons are pulled until they have taken up this share of the energy that parts them: six tenths of the
-/// strain at which an elastic one breaks.
-constexpr double kCouponEnergy = 0.36;
+/// Unnotched coupons are pulled until they have taken up this share of the energy W at which they begin to break: 0.85
+/// of that strain in an elastic one, so that what flows before is seen.
+constexpr double kCouponEnergy = 0.72;
 
 Making making_of(const Experiment& experiment, int specimen = 0) {
   return {.orientation_deg = experiment.conditions.orientation_deg,
