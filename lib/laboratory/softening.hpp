@@ -23,8 +23,7 @@ struct SofteningShape {
   const float s = std::sqrt((energy > 0.0f ? energy : 0.0f) / onset);
   const float falling = (1.0f + shape.v - s) / (s * shape.v);
   const float x = 1.0f + (s - 1.0f) / shape.w;
-  const float left =
-      shape.linear * (falling > 0.0f ? falling : 0.0f) + shape.drawn_out / (x * x * x * s) + shape.none;
+  const float left = shape.linear * (falling > 0.0f ? falling : 0.0f) + shape.drawn_out / (x * x * x * s) + shape.none;
   const float now = s > 1.0f ? left : 1.0f;
   return now < integrity ? now : integrity;
 }

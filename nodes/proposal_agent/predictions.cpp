@@ -15,7 +15,7 @@ std::vector<wire::SimulateRequest> Predictions::requests(const wire::SimulateReq
   further.first_specimen = tester::kFirstPredictionSpecimen;
   further.specimens = tester::kPredictionSpecimens;
   std::vector<pattern::Pattern> patterns;
-  for (const wire::ProposedDesign& each : proposal_.designs) 
+  for (const wire::ProposedDesign& each : proposal_.designs)
     if (const auto pattern = pattern::Pattern::from_layout(*each.design.layout())) patterns.push_back(*pattern);
   std::vector<wire::SimulateRequest> requests = requests_for_patterns(patterns, further, id);
   for (const wire::SimulateRequest& request : requests) open_.insert(request.request_id);

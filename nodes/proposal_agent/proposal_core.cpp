@@ -21,6 +21,10 @@ void log(runtime::Outputs& outputs, runtime::LogLevel level, std::string text) {
   outputs.log.push_back({level, std::move(text)});
 }
 
+void post(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs) {
+  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+}
+
 }  // namespace
 
 ProposalCore::ProposalCore(const game::Scenario& scenario) : scenario_(scenario) {
@@ -113,7 +117,7 @@ void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
 }
 
 void ProposalCore::send(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs) {
-  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  post(requests, outputs);
   const bool all_finished =
       std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
   if (all_finished && !round_->realisations) request_realisations(outputs);
@@ -169,7 +173,7 @@ void ProposalCore::request_realisations(runtime::Outputs& outputs) {
                                  fmt::format("proposal_agent/r{}", round_->model.round));
   }
   const auto requests = round_->realisations->next(request_to_farm());
-  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  post(requests, outputs);
   if (requests.empty()) publish_gamut(outputs);
 }
 
@@ -197,7 +201,7 @@ void ProposalCore::accept_selection(const runtime::WorkDone& work, runtime::Outp
   round_->predictions.emplace(*proposal);
   const auto requests = round_->predictions->requests(request_to_farm(),
                                                       fmt::format("proposal_agent/r{}/predicted", round_->model.round));
-  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  post(requests, outputs);
   if (requests.empty()) publish_proposal(round_->predictions->proposal(), outputs);
 }
 
