@@ -63,7 +63,7 @@ test("a point is clicked and its film plays", async () => {
   await page.locator(".film canvas").waitFor({ timeout: 40_000 });
   const first = await frameOf(page);
   await until(async () => (await frameOf(page)) > first + 5, 20, "the film goes on");
-  assert.ok((await painted(page, ".film canvas")).colours > 20);
+  await until(async () => (await painted(page, ".film canvas")).colours > 20, 20, "strains are told apart");
   assert.match(await page.getByLabel("colours of the film").innerText(), /soft\s+rigid\s+interface\s+breaking/);
   assert.equal(await page.locator(".design .chart").count(), 1);
   await photograph(page, "game-film");
