@@ -1,6 +1,6 @@
 // Proposals with T as a mean over realisations against proposals with T of one simulation, from the same gamut of the
 // same model, and what the game's virtual laboratory would measure of both. Reads games that were played without
-// realisations. Results: docs/studies/realisations.md.
+// realisations. Results: docs/decisions/0014.
 
 #include <cmath>
 #include <map>

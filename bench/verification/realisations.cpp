@@ -1,5 +1,5 @@
 // Error of log T of proposed designs when T is a mean over perturbed parameters: the proposals of played games are
-// simulated again and compared with what was measured of them afterwards. Results: docs/studies/realisations.md.
+// simulated again and compared with what was measured of them afterwards. Results: docs/decisions/0014.
 
 #include <algorithm>
 #include <cmath>

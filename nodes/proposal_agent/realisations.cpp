@@ -18,7 +18,7 @@ namespace nacre::proposal_agent {
 namespace {
 
 // About what a calibration leaves open. Smaller perturbations seldom change a crack's path, larger ones gain no more
-// (docs/studies/realisations.md).
+// (docs/decisions/0014).
 constexpr double kPerturbation = 0.2;
 
 }  // namespace

@@ -2,7 +2,7 @@
 // Toughness without the winner's curse. The best of N samples are those whose one simulation came out high. Whatever
 // may be selected is therefore simulated again (re-evaluation of elites in noisy optimisation): where specimens differ,
 // its T is the mean over further specimens, which did not choose it; else it is the geometric mean over simulations
-// with parameters perturbed within their uncertainty (realisations, docs/studies/realisations.md).
+// with parameters perturbed within their uncertainty (realisations, docs/decisions/0014).
 
 #include <cstdint>
 #include <map>
