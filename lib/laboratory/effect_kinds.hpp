@@ -29,6 +29,7 @@ struct EffectKind {
   bool in_library = true;                           ///< false: the diagnosis has no name for it
   std::string_view family = {};                     ///< of the library's that it belongs to nevertheless, or empty
   bool even = false;                                ///< acts on all specimens of one condition by one factor
+  bool bulk = false;                                ///< told by homogeneous specimens alone
   double HiddenEffects::*value = nullptr;
   EffectNumber second = {};  ///< its second number, where it has one (second.value not null)
 };

@@ -308,6 +308,14 @@ double branch_stiffness(double overstress, double relaxation_s, double rate_per_
                    (last - first);
 }
 
+/// What the phases gain by a pull faster than the usual one: soft, interface, rigid as in Constants.
+std::array<double, 3> power_law_factors(const HiddenEffects& effects, double rate_per_s) {
+  constexpr double kUsualRate = 6.17e-4;
+  const double soft = effects.rate_exponent, rigid = soft * effects.rate_exponent_ratio;
+  const double times = rate_per_s / kUsualRate;
+  return {std::pow(times, soft), std::pow(times, 0.5 * (soft + rigid)), std::pow(times, rigid)};
+}
+
 /// The constants of theta as a modulus test finds them, at its rate.
 Constants tested_constants(const Truth& truth, const Making& making) {
   const HiddenEffects& effects = truth.effects;
@@ -316,7 +324,17 @@ Constants tested_constants(const Truth& truth, const Making& making) {
   const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s);
   for (double& young_pa : constants.young_pa) young_pa *= all;
   constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, rate_per_s);
+  if (effects.rate_exponent > 0.0) {
+    const std::array<double, 3> gained = power_law_factors(effects, rate_per_s);
+    for (std::size_t phase = 0; phase < gained.size(); ++phase) constants.young_pa[phase] *= gained[phase];
+  }
   return constants;
+}
+
+/// A blend's E over that of the mixture law: a parabola between the three materials, in the logarithm.
+double blended(const HiddenEffects& effects, double rigid_fraction) {
+  const double off_middle = 4.0 * std::abs(std::fmod(rigid_fraction, 0.5) - 0.25);
+  return effects.blend_bulge == 0.0 ? 1.0 : std::exp(effects.blend_bulge * (1.0 - off_middle * off_middle));
 }
 
 }  // namespace
@@ -387,7 +405,9 @@ Raster fracture_raster(const Truth& truth, const pattern::Design& design, const 
 }
 
 double homogeneous_modulus(const Truth& truth, double rigid_fraction, const Making& making) {
-  if (truth.effects.plane_strain == 0.0) return mixed_in_log(tested_constants(truth, making).young_pa, rigid_fraction);
+  if (truth.effects.plane_strain == 0.0)
+    return mixed_in_log(tested_constants(truth, making).young_pa, rigid_fraction) *
+           blended(truth.effects, rigid_fraction);
   const material::Lame lame = homogeneous_lame(truth, rigid_fraction, making);
   return 4.0 * lame.mu_pa * (lame.lambda_pa + lame.mu_pa) / (lame.lambda_pa + 2.0 * lame.mu_pa);
 }
@@ -395,8 +415,8 @@ double homogeneous_modulus(const Truth& truth, double rigid_fraction, const Maki
 material::Lame homogeneous_lame(const Truth& truth, double rigid_fraction, const Making& making) {
   const Constants constants = tested_constants(truth, making);
   const double poisson = mixed(constants.poisson, rigid_fraction);
-  return held_in_thickness(material::lame_from_engineering(mixed_in_log(constants.young_pa, rigid_fraction), poisson),
-                           poisson, truth.effects, making);
+  const double young_pa = mixed_in_log(constants.young_pa, rigid_fraction) * blended(truth.effects, rigid_fraction);
+  return held_in_thickness(material::lame_from_engineering(young_pa, poisson), poisson, truth.effects, making);
 }
 
 }  // namespace nacre::laboratory

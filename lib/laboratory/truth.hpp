@@ -39,6 +39,8 @@ struct HiddenEffects {
   double residual_strain = 0.0;
   double plane_strain = 0.0;
   double batch_drift = 0.0;
+  double rate_exponent = 0.0, rate_exponent_ratio = 0.0;
+  double blend_bulge = 0.0;
   // Other forms of effects of the diagnosis' library.
   double smooth_mixing_pixels = 0.0;
   double longer_notch = 0.0;
@@ -72,7 +74,7 @@ struct Truth {
   ReplicateNoise noise;
   material::ModulusParameters modulus;  ///< of layouts
   CouponRatios coupons;
-  material::ToughnessParameters toughness;  ///< thresholds as the testers mean them: at element size h
+  material::ToughnessParameters toughness;    ///< thresholds as the testers mean them: at element size h
   material::FailureCriterion criterion = {};  ///< `element`, 0: the thesis' model, where nothing else was read or drawn
   double strength_cv = 0.0;                   ///< of W between voxels of half a pixel, by a law of its own (Weibull)
   HiddenEffects effects;

@@ -18,6 +18,19 @@ constexpr std::array kSoftStiffening = {
 constexpr std::array kRateDependence = {
     EffectParameter{"stress of an instantaneous stretch over the relaxed stress, less one", "1", 0.0, 2.0},
     EffectParameter{"time in which the overstress relaxes", "s", 0.0, 1e4, Strength::scale, 1e-2}};
+constexpr std::array kRatePowerLaw = {
+    EffectParameter{"exponent n of the soft phase: its stiffness grows as the strain rate to the power n", "1", 0.0,
+                    0.6},
+    EffectParameter{"exponent of the interface over that of the soft phase", "1", 0.0, 2.0},
+    EffectParameter{"exponent of the rigid phase over that of the soft phase", "1", 0.0, 2.0}};
+constexpr std::array kExponents = {
+    DerivedNumber{"soft_exponent", "exponent of the soft phase", [](std::span<const double> p) { return p[0]; }},
+    DerivedNumber{"interface_exponent", "exponent of the interface",
+                  [](std::span<const double> p) { return p[0] * p[1]; }},
+    DerivedNumber{"rigid_exponent", "exponent of the rigid phase",
+                  [](std::span<const double> p) { return p[0] * p[2]; }}};
+constexpr std::array kBlendLaw = {EffectParameter{
+    "log of E of a blend halfway between two of the three materials over what the mixture law says", "1", -1.5, 1.5}};
 constexpr std::array kProgressiveDamage = {
     EffectParameter{"energy spent in softening over the threshold energy", "1", 0.0, 4.0}};
 constexpr std::array kTensionOnlyFailure = {
@@ -41,7 +54,8 @@ struct ActsOn {
   bool modulus = false, toughness = false, tensile = false;
 };
 constexpr ActsOn kFracture{.toughness = true}, kLayouts{.modulus = true, .toughness = true},
-    kLargeStrain{.toughness = true, .tensile = true}, kEverything{.modulus = true, .toughness = true, .tensile = true};
+    kLargeStrain{.toughness = true, .tensile = true}, kEverything{.modulus = true, .toughness = true, .tensile = true},
+    kElastic{.modulus = true, .tensile = true};
 
 constexpr Effect effect(std::string_view name, std::string_view family, EffectSide side,
                         std::span<const EffectParameter> parameters, ActsOn acts_on, std::string_view explanation) {
@@ -53,6 +67,15 @@ constexpr Effect effect(std::string_view name, std::string_view family, EffectSi
           .acts_on_toughness = acts_on.toughness,
           .acts_on_tensile = acts_on.tensile,
           .explanation = explanation};
+}
+
+/// One of several forms of an effect.
+constexpr Effect form(Effect one, std::string_view form_of, std::string_view form,
+                      std::span<const DerivedNumber> derived = {}) {
+  one.form_of = form_of;
+  one.form = form;
+  one.derived = derived;
+  return one;
 }
 
 // In the order in which they are reported.
@@ -69,8 +92,16 @@ constexpr std::array kLibrary = {
            "The rigid phase flows beyond a yield stress: a knee in the curve, and a permanent set on unloading."),
     effect("soft_stiffening", "soft bulk", EffectSide::material, kSoftStiffening, kLargeStrain,
            "The chains of the soft phase reach their limit (Gent): the late curve rises, its start is unchanged."),
-    effect("rate_dependence", "rate", EffectSide::material, kRateDependence, kEverything,
-           "All materials are stiffer the faster they are pulled (a Maxwell branch); seen at a second strain rate."),
+    form(effect("rate_dependence", "rate", EffectSide::material, kRateDependence, kEverything,
+                "All materials are stiffer the faster they are pulled (a Maxwell branch); seen at a second strain "
+                "rate."),
+         "", "maxwell"),
+    form(effect("rate_power_law", "rate", EffectSide::material, kRatePowerLaw, kElastic,
+                "Each phase is stiffer by a power of the strain rate, over decades; seen at three rates, in several "
+                "blends."),
+         "rate_dependence", "power_law", kExponents),
+    effect("blend_law", "blends", EffectSide::material, kBlendLaw, kElastic,
+           "Homogeneous blends are stiffer or softer than the mixture law between the three materials says."),
     effect("progressive_damage", "failure", EffectSide::material, kProgressiveDamage, kLargeStrain,
            "Material softens before it breaks: a rounder peak and a longer tail."),
     effect("tension_only_failure", "failure", EffectSide::material, kTensionOnlyFailure, kFracture,

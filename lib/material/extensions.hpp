@@ -41,6 +41,13 @@ double value_at_strength(const EffectParameter& parameter, double strength);
 /// The inverse of value_at_strength().
 double strength_of(const EffectParameter& parameter, double value);
 
+/// A number that follows from an effect's parameters and says more than they do.
+struct DerivedNumber {
+  std::string_view name;  ///< in files
+  std::string_view meaning;
+  double (*of)(std::span<const double> parameters) = nullptr;
+};
+
 /// A named extension of the model. `family` groups effects whose signatures may be collinear in one set of data.
 struct Effect {
   std::string_view name;
@@ -51,6 +58,11 @@ struct Effect {
   bool acts_on_toughness = false;
   bool acts_on_tensile = false;  ///< the unnotched homogeneous coupon
   std::string_view explanation;
+  std::string_view form_of = {};  ///< the effect of which this is another form; empty: of none
+  std::string_view form = {};     ///< of effects with several forms: which
+  std::span<const DerivedNumber> derived = {};
+  /// What people call the cause: all forms of one effect alike.
+  std::string_view cause() const { return form_of.empty() ? name : form_of; }
 };
 
 /// The effect of that name, or nullptr.

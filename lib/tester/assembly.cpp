@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 
+#include "material/blend_law.hpp"
 #include "material/confinement.hpp"
 #include "material/extended_law.hpp"
 #include "material/extensions.hpp"
+#include "material/rate_power_law.hpp"
 #include "tester/printed_unit.hpp"
 #include "thesis/constants.hpp"
 
@@ -200,6 +202,15 @@ material::Constants coupon_constants(const material::Phases& phases, const patte
                             material::plane_strain_share(extensions, conditions.thickness_mm));
 }
 
+material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
+                                             const material::Extensions& extensions, const TestConditions& conditions) {
+  const material::Phases phases =
+      material::phases_at_rate(material::phases_of(theta), extensions, conditions.strain_rate_per_s);
+  material::Constants constants = coupon_constants(phases, mixture, extensions, conditions);
+  constants.young_pa *= material::blend_factor(extensions, mixture.rigid_fraction);
+  return constants;
+}
+
 fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
                                 AssemblyTarget target, int first, int count) {
   assert(first >= -kElementsPerUnit && count >= 1);
@@ -212,7 +223,9 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y, int refinement) {
   assert(units_x >= 1 && units_y >= 1 && refinement >= 1);
   assert(conditions.orientation_deg == 0.0 || conditions.orientation_deg == 90.0);
-  const material::Phases phases = phases_for(parameters, target);
+  material::Phases phases = phases_for(parameters, target);
+  if (target == AssemblyTarget::modulus)
+    phases = material::phases_at_rate(phases, parameters.extensions, conditions.strain_rate_per_s);
   const int side = kElementsPerUnit * refinement;
   fem::Grid grid = empty_grid(side * units_x, side * units_y, refinement);
   material::LawExtensions laws = laws_for(parameters.extensions, target);
@@ -226,7 +239,9 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
   } else {
     const double rigid_fraction = design.mixture()->rigid_fraction;
     const material::Constants constants =
-        coupon_constants(phases, *design.mixture(), parameters.extensions, conditions);
+        target == AssemblyTarget::modulus
+            ? elastic_coupon_constants(parameters.modulus, *design.mixture(), parameters.extensions, conditions)
+            : coupon_constants(phases, *design.mixture(), parameters.extensions, conditions);
     for (std::size_t e = 0; e < grid.phase.size(); ++e) {
       set_element(grid, e, constants, nearest_phase(rigid_fraction), refinement);
       if (laws.any()) set_law(grid, e, laws, rigid_fraction);

@@ -32,5 +32,8 @@ fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::P
 /// Constants of a homogeneous coupon, with the extensions that act on them.
 material::Constants coupon_constants(const material::Phases& phases, const pattern::Mixture& mixture,
                                      const material::Extensions& extensions, const TestConditions& conditions);
+/// The same in an elastic test of the bulk: at its strain rate, by the law of blends.
+material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
+                                             const material::Extensions& extensions, const TestConditions& conditions);
 
 }  // namespace nacre::tester

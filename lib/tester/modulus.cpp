@@ -12,8 +12,8 @@ namespace nacre::tester {
 namespace {
 
 double homogeneous_modulus(const pattern::Mixture& mixture, const Simulation& simulation) {
-  const material::Constants constants = coupon_constants(material::phases_of(simulation.parameters.modulus), mixture,
-                                                         simulation.parameters.extensions, simulation.conditions);
+  const material::Constants constants = elastic_coupon_constants(
+      simulation.parameters.modulus, mixture, simulation.parameters.extensions, simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   return material::uniaxial_stress(thesis::kModulusStrain, lame).nominal_stress_pa / thesis::kModulusStrain;
 }

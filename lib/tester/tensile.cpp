@@ -44,8 +44,8 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
     return fail(
         "tensile tester: {} is not homogeneous; only soft, interface, rigid and mix: are pulled as unnotched coupons",
         simulation.design.name());
-  const material::Constants constants = coupon_constants(material::phases_of(simulation.parameters.modulus), *mixture,
-                                                         simulation.parameters.extensions, simulation.conditions);
+  const material::Constants constants = elastic_coupon_constants(
+      simulation.parameters.modulus, *mixture, simulation.parameters.extensions, simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
   extensions.shrinkage = 0.0;  // it shrinks freely, and is measured afterwards
