@@ -14,6 +14,7 @@
 #include "measurement/reduction.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "measurement/summary.hpp"
+#include "measurement/surroundings.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
@@ -227,7 +228,8 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   return group;
 }
 
-using ReplicateMembers = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
+using ReplicateMembers =
+    std::map<std::tuple<std::string, tester::TestKind, double, double, double, std::string>, Members>;
 
 /// Under nominal conditions, by name, each once.
 std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& specimens) {
@@ -243,8 +245,11 @@ ReplicateMembers groups_of(const std::vector<SpecimenRecord>& nominal) {
   ReplicateMembers groups;
   for (const SpecimenRecord& specimen : nominal) {
     const tester::TestConditions& c = specimen.conditions;
-    groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(
-        &specimen);
+    Surroundings surroundings = surroundings_of(specimen);
+    surroundings.machine.clear();  // replicates on two machines should agree
+    groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm,
+            nominal_surroundings(surroundings)}]
+        .push_back(&specimen);
   }
   return groups;
 }

@@ -42,7 +42,7 @@ enum class GroupState {
 };
 std::string_view to_string(GroupState state);
 
-/// One design in one test under (nominally) the same conditions.
+/// One design in one test under (nominally) the same conditions, temperature, humidity and age.
 struct ReplicateGroup {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;

@@ -54,7 +54,8 @@ SetHeading read_heading(const CsvRow& row, const std::string& table, std::vector
     }
     const std::string kept = name_of_its_own(heading, name);
     heading.others.emplace_back(i, kept);
-    if (std::find(kHistoryColumns.begin(), kHistoryColumns.end(), kept) == kHistoryColumns.end())
+    if (std::ranges::find(kHistoryColumns, kept) == kHistoryColumns.end() &&
+        std::ranges::find(kConditionColumns, kept) == kConditionColumns.end())
       warnings.push_back(unknown_column(table, row.cells[i], kept));
   }
   return heading;
