@@ -101,6 +101,8 @@ int main(int argc, char** argv) {
   app.add_option("--forms", options.trials.forms, "Trials of known effects in another form")->capture_default_str();
   app.add_option("--doubles", options.trials.doubles)->capture_default_str();
   app.add_option("--alike", options.trials.alike)->capture_default_str();
+  app.add_option("--homogeneous", options.trials.homogeneous, "Trials of tabulated moduli of blends")
+      ->capture_default_str();
   app.add_option("--distorted", options.trials.distorted, "Trials of moduli that a smooth law distorts")
       ->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();

@@ -15,6 +15,17 @@
 namespace nacre::blind_trials {
 namespace {
 
+/// What people call an effect: all its forms alike.
+std::string cause_of(const std::string& effect) {
+  const material::Effect* known = material::find_effect(effect);
+  return known == nullptr ? effect : std::string(known->cause());
+}
+
+std::vector<std::string> causes_of(std::vector<std::string> effects) {
+  std::ranges::transform(effects, effects.begin(), cause_of);
+  return effects;
+}
+
 bool same(std::vector<std::string> a, std::vector<std::string> b) {
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
@@ -80,10 +91,19 @@ bool fair(const Score& s) {
 bool named_rightly(const Score& s) { return s.right_name; }
 bool named_wrongly(const Score& s) {
   return s.diagnosis.verdict == "named" && std::ranges::any_of(s.diagnosis.named, [&](const FoundEffect& named) {
-           return std::ranges::count(s.trial.hidden, named.effect) == 0;
+           return std::ranges::count(causes_of(s.trial.hidden), cause_of(named.effect)) == 0;
          });
 }
 bool named_of_another_family(const Score& s) { return s.diagnosis.verdict == "named" && !s.right_family; }
+
+/// Of homogeneous specimens: a cause that the diagnosis knows, or another form of one.
+Condition visible_homogeneous(bool known) {
+  return [known](const Score& s) {
+    return s.trial.kind == "homogeneous" && !s.trial.hidden.empty() && faintest(s).snr >= 8.0 &&
+           (material::find_effect(s.trial.hidden.front()) != nullptr) == known;
+  };
+}
+bool homogeneous_null(const Score& s) { return s.trial.kind == "homogeneous" && s.trial.hidden.empty(); }
 
 struct TrialRate {
   std::string_view name;
@@ -113,6 +133,10 @@ std::vector<TrialRate> rates() {
       {"another form, SNR >= 8: its family named", visible_of_kind("form"), right_family, ""},
       {"two at once, both SNR >= 8: both named", visible_of_kind("double"), named_rightly, ""},
       {"two at once: a wrong name", of_kind("double"), named_wrongly, ""},
+      {"homogeneous, a known cause, SNR >= 8: right name", visible_homogeneous(true), named_rightly, ">= 95 %"},
+      {"homogeneous, another form: a name of another family", visible_homogeneous(false), named_of_another_family, "0"},
+      {"homogeneous, nothing hidden: base sufficient", homogeneous_null, has_verdict("base_sufficient"), ">= 97 %"},
+      {"homogeneous, nothing hidden: any name", homogeneous_null, has_verdict("named"), "0"},
       {"collinear causes: right single name", of_kind("alike"), named_rightly, ""},
       {"pair: reported as a set", of_kind("pair"), right_set, ">= 95 %"},
       {"pair: resolved by the tests it orders, four at most", of_kind("resolved"), named_rightly, ">= 80 %"},
@@ -190,17 +214,19 @@ std::string trial_table(const std::vector<Score>& scores) {
 
 Score score_of(const BlindTrial& trial, const TrialDiagnosis& diagnosis) {
   Score score{trial, diagnosis};
-  score.right_name = diagnosis.verdict == "named" && same(names_of(diagnosis), trial.hidden);
+  score.right_name = diagnosis.verdict == "named" && same(causes_of(names_of(diagnosis)), causes_of(trial.hidden));
   score.in_set = std::any_of(diagnosis.possible.begin(), diagnosis.possible.end(),
-                             [&](const auto& model) { return same(model, trial.hidden); });
+                             [&](const auto& model) { return same(causes_of(model), causes_of(trial.hidden)); });
   if (trial.hidden.empty()) return score;
   score.right_family =
       diagnosis.verdict == "named" && std::ranges::all_of(diagnosis.named, [&](const FoundEffect& named) {
         return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
       });
-  if (!score.right_name) return score;
-  const FoundEffect& named = *std::find_if(diagnosis.named.begin(), diagnosis.named.end(),
-                                           [&](const FoundEffect& n) { return n.effect == trial.hidden.front(); });
+  // Of homogeneous specimens the first parameter may be that of a phase which none of them holds.
+  if (!score.right_name || trial.kind == "homogeneous") return score;
+  const FoundEffect& named = *std::find_if(diagnosis.named.begin(), diagnosis.named.end(), [&](const FoundEffect& n) {
+    return cause_of(n.effect) == cause_of(trial.hidden.front());
+  });
   const double size = diagnosis.hidden.front().size;
   score.parameter_error = std::abs(named.size / size - 1.0);
   score.covered = named.low90 <= size && size <= named.high90;

@@ -218,6 +218,21 @@ void distort(const BlindTrial& trial, Specimens& records) {
     if (record.modulus_pa) *record.modulus_pa *= distortion(trial, *record.modulus_pa / largest_pa);
 }
 
+/// Moduli of five blends at four rates, or of three at three: no layout, no curve.
+std::vector<lab::Experiment> tabulated_moduli(const BlindTrial& trial, tester::Fidelity fidelity) {
+  const bool many = trial.seed % 2 == 0;
+  const std::vector<double> blends = many ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5, 0.75, 1.0},
+                            rates_per_s = many ? std::vector{1e-4, 1e-3, 1e-2, 1e-1} : std::vector{1e-3, 1e-2, 1e-1};
+  std::vector<lab::Experiment> experiments;
+  for (const double blend : blends)
+    for (const double rate_per_s : rates_per_s)
+      experiments.push_back({.design = pattern::Mixture{blend},
+                             .test = TestKind::modulus,
+                             .conditions = {.strain_rate_per_s = rate_per_s},
+                             .fidelity = fidelity});
+  return experiments;
+}
+
 }  // namespace
 
 std::vector<BlindTrial> all_trials(const TrialOptions& options) {
@@ -232,7 +247,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
   std::vector<std::string> inside, outside, forms, even;
   for (const lab::EffectKind& kind : lab::effect_kinds())
-    (kind.even ? even : kind.in_library ? inside : kind.family.empty() ? outside : forms).emplace_back(kind.name);
+    if (!kind.bulk)
+      (kind.even ? even : kind.in_library ? inside : kind.family.empty() ? outside : forms).emplace_back(kind.name);
   const auto add_all_sizes = [&](const std::string& kind, const std::vector<std::string>& names) {
     for (const std::string& name : names)
       for (const bool large : {true, false})
@@ -245,7 +261,9 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
       // Round by round: every cause with the plain scatter and with twice that.
       const std::size_t which = static_cast<std::size_t>(i) % names.size(),
                         turn = static_cast<std::size_t>(i) / names.size();
-      add(kind, names[which], {names[which]}, true, turn % 2 == 1);
+      const bool hides = !names[which].empty();
+      add(kind, hides ? names[which] : "nothing", hides ? std::vector{names[which]} : std::vector<std::string>{}, true,
+          turn % 2 == 1);
     }
   };
   add_in_turn("outside", outside, options.outside);
@@ -264,6 +282,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   add_in_turn("form", forms, options.forms);
   add_all_sizes("even", even);
   for (int i = 0; i < options.distorted; ++i) add("distorted", "moduli", {}, i % 2 == 0, i / 2 % 2 == 1);
+  add_in_turn("homogeneous", {"", "rate_power_law", "rate_dependence", "blend_law", "soft_rate_dependence"},
+              options.homogeneous);
   return trials;
 }
 
@@ -286,6 +306,7 @@ lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
 
 std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options) {
   if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
+  if (trial.kind == "homogeneous") return tabulated_moduli(trial, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);

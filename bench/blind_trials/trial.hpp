@@ -25,7 +25,7 @@ struct BlindTrial {
 struct TrialOptions {
   tester::Fidelity fidelity = tester::Fidelity::tiny;
   bool fracture = false;  ///< toughness specimens besides the moduli
-  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15, distorted = 60;
+  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15, distorted = 60, homogeneous = 50;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
@@ -41,7 +41,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options);
 /// the tests that the diagnosis orders are printed in a third batch. Kind `outside`: eight unmodelled causes; `form`:
 /// five known effects in another functional form, whose family is the right name; `even`: unmodelled causes that act on
 /// all turned, or all thin, specimens by one factor. Kind `distorted`: moduli that the machine shows by a smooth law of
-/// their own size, on upright layouts alone.
+/// their own size, on upright layouts alone. Kind `homogeneous`: tabulated moduli of blends at several rates, under
+/// rate laws of three forms, blends off the mixture law, or nothing.
 std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// The truth of a trial's laboratory.
