@@ -98,7 +98,10 @@ FittedModel DataSource::combined(FittedModel fit) const {
 
 Anchor DataSource::combined(Anchor anchor) const {
   anchor.fit = combined(std::move(anchor.fit));
-  for (Signature& signature : anchor.signatures) signature.changes = combined(signature.changes);
+  for (Signature& signature : anchor.signatures) {
+    signature.changes = combined(signature.changes);
+    if (signature.elsewhere.cols() > 0) signature.elsewhere = combined(signature.elsewhere);
+  }
   for (ContrastDirection& direction : anchor.directions) direction.values = combined(Eigen::MatrixXd(direction.values));
   anchor.parts = parts_;
   return anchor;
@@ -134,12 +137,15 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data, do
     statistics.parts[anchor.parts[i]] += std::pow(residual[i], 2);
   }
   for (const Signature& signature : anchor.signatures) {
-    const Eigen::MatrixXd g = projector.projected(signature.changes);
     double best = 0.0;
-    for (const auto& column : g.colwise()) {
-      const double length = column.squaredNorm(), along = column.dot(residual);
-      if (length < 1e-12 || (signature.one_sided && along < 0.0)) continue;
-      best = std::max(best, along * along / length);
+    for (const Eigen::MatrixXd* changes : {&signature.changes, &signature.elsewhere}) {
+      if (changes->cols() == 0) continue;
+      const Eigen::MatrixXd g = projector.projected(*changes);
+      for (const auto& column : g.colwise()) {
+        const double length = column.squaredNorm(), along = column.dot(residual);
+        if (length < 1e-12 || (signature.one_sided && along < 0.0)) continue;
+        best = std::max(best, along * along / length);
+      }
     }
     statistics.drops.push_back(best);
   }

@@ -1,6 +1,8 @@
 #include "diagnosis/candidate_effects.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace nacre::diagnosis {
 namespace {
@@ -11,7 +13,7 @@ using tester::TestKind;
 
 bool is_identified_by_moduli(const material::Effect& effect) {
   return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" ||
-         effect.name == "droplet_mixing" || effect.name == "rigid_overprint";
+         effect.name == "droplet_mixing" || effect.name == "rigid_overprint" || effect.name == "blend_law";
 }
 
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
@@ -28,14 +30,21 @@ bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change
   });
 }
 
-std::optional<TooFew> too_few(std::span<const Observation> groups, const NoiseRules& rules) {
-  const TooFew few{.layouts = static_cast<int>(std::ranges::count_if(
-                       groups, [](const Observation& g) { return g.design.layout() != nullptr; })),
-                   .coupons = static_cast<int>(std::ranges::count(groups, TestKind::tensile, &Observation::test)),
-                   .layouts_needed = rules.fewest_groups,
-                   .coupons_needed = rules.fewest_coupons};
-  if (few.layouts >= few.layouts_needed || few.coupons >= few.coupons_needed) return std::nullopt;
-  return few;
+bool is_other_constants(const material::Effect& effect, const Observations& observations) {
+  return effect.form == "power_law" && std::ranges::all_of(observations.groups, [&](const Observation& group) {
+           return group.conditions.strain_rate_per_s == observations.groups.front().conditions.strain_rate_per_s;
+         });
+}
+
+bool only_moduli_of_layouts_tell(const Observations& observations) {
+  std::map<std::string, tester::TestConditions> first;
+  for (const Observation& group : observations.groups) {
+    if (group.test != TestKind::modulus) return false;
+    if (group.design.layout()) continue;
+    const auto [place, is_new] = first.try_emplace(group.material(), group.conditions);
+    if (!is_new && !(place->second == group.conditions)) return false;
+  }
+  return true;
 }
 
 }  // namespace nacre::diagnosis

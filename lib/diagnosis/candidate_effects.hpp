@@ -1,7 +1,6 @@
 #pragma once
-// Which effects are candidates on some rows (docs/METHODS.md, "Diagnosis", 3), and whether there are enough rows.
+// Which effects are candidates on some rows (docs/METHODS.md, "Diagnosis", 3).
 
-#include <optional>
 #include <span>
 
 #include "diagnosis/observations.hpp"
@@ -21,13 +20,12 @@ bool is_modulus_of_layout(const Observations& observations, Eigen::Index row);
 bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
                    std::span<const Eigen::Index> rows);
 
-/// Groups that are too few for a diagnosis, and how many it needs of the one or of the other.
-struct TooFew {
-  int layouts = 0, coupons = 0;
-  int layouts_needed = 0, coupons_needed = 0;
-};
+/// Whether an effect is nothing but other constants of the phases on these specimens: a power of the rate where all
+/// were tested at one rate.
+bool is_other_constants(const material::Effect& effect, const Observations& observations);
 
-/// Nothing where there are enough.
-std::optional<TooFew> too_few(std::span<const Observation> groups, const NoiseRules& rules);
+/// Whether no effect but those that moduli of layouts identify can be told here: there are moduli alone, and no
+/// homogeneous material was tested under two conditions.
+bool only_moduli_of_layouts_tell(const Observations& observations);
 
 }  // namespace nacre::diagnosis

@@ -155,12 +155,23 @@ std::vector<Descriptor> descriptors() {
       {"thickness", [](const Observation& g) { return g.conditions.thickness_mm; }},
       {"print order", [](const Observation& g) { return g.print_order; }},
       {"batch", [](const Observation& g) { return g.batch_step; }},
+      // Where it is not noted: the standard atmosphere of ISO 291, and new.
+      {"temperature", [](const Observation& g) { return g.surroundings.temperature_c.value_or(23.0); }},
+      {"humidity", [](const Observation& g) { return g.surroundings.humidity_pct.value_or(50.0); }},
+      {"age", [](const Observation& g) { return std::log1p(g.surroundings.age_days.value_or(0.0)); }},
+      {"machine", [](const Observation& g) { return static_cast<double>(g.machine); }},
   };
   for (const LayoutDescriptor& descriptor : kLayoutDescriptors)
     all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) {
                      return g.design.layout() ? of(*g.design.layout()) : 0.0;
                    }});
   return all;
+}
+
+bool is_condition(std::string_view descriptor) {
+  constexpr std::array<std::string_view, 9> kConditions = {
+      "orientation", "strain rate", "thickness", "print order", "batch", "temperature", "humidity", "age", "machine"};
+  return std::ranges::find(kConditions, descriptor) != kConditions.end();
 }
 
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted) {
@@ -186,6 +197,12 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
     for (const Descriptor& descriptor : descriptors())
       add_if_varying(directions, prefix + descriptor.name, {feature, test, descriptor.name},
                      spread(observations, rows, descriptor.of), rows);
+    for (std::size_t machine = 0; observations.machines.size() > 2 && machine < observations.machines.size(); ++machine)
+      add_if_varying(directions, fmt::format("{}machine \"{}\"", prefix, observations.machines[machine]),
+                     {feature, test, "machine"},
+                     spread(observations, rows,
+                            [&](const Observation& g) { return g.machine == static_cast<int>(machine) ? 1.0 : 0.0; }),
+                     rows);
   }
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];

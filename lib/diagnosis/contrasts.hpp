@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
@@ -26,9 +27,12 @@ struct Descriptor {
   std::function<double(const Observation&)> of;
 };
 
-/// Rigid fraction, orientation, rate, thickness, print order; interface length along and across the load, run length of
-/// either phase, corner contacts, percolation of the rigid phase.
+/// Rigid fraction, orientation, rate, thickness, print order, batch, temperature, humidity, age, machine; interface
+/// length along and across the load, run length of either phase, corner contacts, percolation of the rigid phase.
 std::vector<Descriptor> descriptors();
+
+/// Whether a descriptor is a condition of the test, and not a property of the design.
+bool is_condition(std::string_view descriptor);
 
 /// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and
 /// peak stress; every feature as a whole; changes from batch to batch and with the print order; every batch of three

@@ -7,7 +7,6 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
-#include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
@@ -68,11 +67,11 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
   std::vector<Eigen::Index> rows(observations.size());
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  const bool moduli_alone = std::ranges::all_of(
-      observations.groups, [](const Observation& group) { return group.test == tester::TestKind::modulus; });
+  const bool only_layouts_tell = only_moduli_of_layouts_tell(observations);
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
-    if (moduli_alone && !is_identified_by_moduli(effect)) continue;
+    if (only_layouts_tell && !is_identified_by_moduli(effect)) continue;
+    if (is_other_constants(effect, observations)) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
     const CoordinateMap map = model.map(names);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
@@ -151,7 +150,8 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   const Procedure& procedure = settings.procedure;
   Observations observations =
       observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, procedure);
-  if (const auto few = too_few(observations.groups, procedure.noise)) throw TooFewSpecimens(in_words(*few));
+  if (observations.rows.empty())
+    throw NothingMeasured("no valid specimen has a modulus, a toughness or a curve that a diagnosis reads");
   std::shared_ptr<const FractureTests> fractures;
   if (observations.has(tester::TestKind::toughness))
     fractures =

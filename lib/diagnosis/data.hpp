@@ -21,7 +21,7 @@ struct Data {
 };
 
 /// Groups the specimens; where there are fracture tests finds the most probable eta and simulates around it. Throws
-/// TooFewSpecimens.
+/// NothingMeasured.
 Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 /// Data whose fracture tests were simulated at further parameters, with the emulator that has learnt from them.

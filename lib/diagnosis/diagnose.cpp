@@ -11,6 +11,7 @@
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/misfit.hpp"
 #include "diagnosis/other_materials.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
@@ -85,16 +86,32 @@ std::pair<Feature, tester::TestKind> shown_scatter(const Observations& observati
   return {Feature::log_peak, TestKind::tensile};
 }
 
-/// Models that the next test should separate: the rivals left, or the effects that come nearest to an unexplained
-/// misfit.
+/// Every effect at its usual size on top of the base.
+std::vector<FittedModel> usual_effects(const Evidence& evidence) {
+  std::vector<FittedModel> models;
+  for (const std::string& effect : evidence.effects) {
+    const CoordinateMap map = evidence.model.map({{effect}});
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
+    u.head(map.base_count()) = evidence.base.fit.u;
+    u[map.base_count()] = std::min(evidence.settings.procedure.fit.sizes[evidence.settings.procedure.fit.typical],
+                                   map.upper(map.base_count()));
+    for (int i = map.base_count() + 1; i < map.size(); ++i) u[i] = map.usual(i);
+    models.push_back(linearised(evidence.model, {effect}, u));
+  }
+  return models;
+}
+
+/// Models that the next test should separate: the rivals left, the effects that come nearest to an unexplained misfit,
+/// or, where nothing would show, each effect from the base.
 std::vector<FittedModel> models_to_separate(const Evidence& evidence, const Decision& decision) {
   if (decision.verdict == Verdict::ambiguous) return decision.possible;
   if (decision.verdict == Verdict::named) return {decision.possible.front(), evidence.base.fit};
-  if (decision.verdict != Verdict::unexplained) return {};
-  std::vector<FittedModel> models = evidence.singles;
+  if (decision.verdict == Verdict::base_sufficient) return {};
+  std::vector<FittedModel> models =
+      decision.verdict == Verdict::insufficient ? usual_effects(evidence) : evidence.singles;
   std::stable_sort(models.begin(), models.end(),
                    [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
-  models.resize(std::min<std::size_t>(models.size(), 3));
+  if (decision.verdict == Verdict::unexplained) models.resize(std::min<std::size_t>(models.size(), 3));
   models.push_back(evidence.base.fit);
   return models;
 }
@@ -189,15 +206,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.extended_fit = constants_of(evidence, extended);
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   diagnosis.curves = curves_of(evidence, evidence.base.fit, extended);
-  if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
-    std::vector<FittedModel> models = evidence.singles;
-    // As it was decided, sizes free: folds must not know a size that was fitted to all the data.
-    if (decided.effects.size() > 1) models.push_back(decided);
-    const Gain gain = held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence),
-                                    settings.procedure.gain, settings.seed);
-    // The gain of the nearest effect where none is named is reported as a partial gain.
-    (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
-  }
+  if (decision.verdict == Verdict::named) diagnosis.gain = decision.gain;
+  if (decision.verdict == Verdict::unexplained) diagnosis.partial_gain = gain_of(evidence, decided);
   report(0.95, "choosing the next experiments");
   const CoordinateMap map = evidence.model.map(decided.effects);
   diagnosis.next_experiments =
@@ -214,6 +224,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.cautions = cautions_of(observations, diagnosis, settings);
   diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
+  if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(evidence, diagnosis.contrasts.front());
   diagnosis.summary = summary_of(diagnosis);
   report(1.0, "done");
   return diagnosis;

@@ -9,9 +9,9 @@
 
 namespace nacre::diagnosis {
 
-/// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws TooFewSpecimens when
-/// fewer than eight groups of layouts have a valid test and fewer than four coupons, that differ in material, rate or
-/// thickness (replicates count once), a curve; InputError when there are too few bootstraps for the level of a name.
+/// Diagnoses a set of specimens: moduli and fracture tests of layouts, moduli of homogeneous specimens, coupons with
+/// curves. Throws NothingMeasured where there are none; InputError when there are too few bootstraps for the level of a
+/// name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

@@ -12,6 +12,8 @@ std::string_view to_string(Verdict verdict) {
       return "named";
     case Verdict::ambiguous:
       return "ambiguous";
+    case Verdict::insufficient:
+      return "insufficient";
     case Verdict::unexplained:
       break;
   }
@@ -32,14 +34,19 @@ std::string_view to_string(CandidateStatus status) {
   return "not_applicable";
 }
 
+bool is_told(const FittedNumber& number) {
+  constexpr double kWidest = 1.0;  // exponents of rates lie between 0 and 1
+  return number.interval_high - number.interval_low < kWidest;
+}
+
 bool lines_up(const Diagnosis& diagnosis) {
   return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= diagnosis.contrast_level;
 }
 
-Diagnosis undecided(const std::string& why) {
+Diagnosis insufficient(const std::string& why) {
   Diagnosis diagnosis;
-  diagnosis.verdict = Verdict::ambiguous;
-  diagnosis.summary = undecided_in_words(why);
+  diagnosis.verdict = Verdict::insufficient;
+  diagnosis.summary = insufficient_in_words(why);
   return diagnosis;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnosis/data_summary.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/material_constants.hpp"
 #include "diagnosis/procedure.hpp"
@@ -23,6 +24,7 @@ enum class Verdict {
   named,            ///< one effect (or a pair that is needed together) explains the misfit
   ambiguous,        ///< several effects explain the misfit equally well
   unexplained,      ///< no known effect explains the misfit
+  insufficient,     ///< too little was measured: no known cause would have shown
 };
 std::string_view to_string(Verdict verdict);
 
@@ -36,15 +38,17 @@ enum class Reason {
   contrast,             ///< unexplained: a contrast explains more than the nearest effect
   condition,            ///< unexplained: one factor on all specimens of a condition does as well
   discrepancy,          ///< unexplained: data of a discrepancy model favour an effect by as much too often
+  worse_unseen,         ///< unexplained: the nearest effect predicts designs held out of the fit worse than the base
   one_effect,           ///< named or ambiguous: one explains the data
   two_effects,          ///< the same: none alone, two together
   other_material,       ///< ambiguous: the base fits with constants of another material
+  nothing_visible,      ///< insufficient: no effect of usual size would have been visible
 };
 
 /// Why it was decided so.
 struct Finding {
   Reason reason = Reason::residuals_are_noise;
-  std::vector<std::string> nearest = {};  ///< from at_bound to discrepancy: the effects that come nearest
+  std::vector<std::string> nearest = {};  ///< from at_bound to worse_unseen: the effects that come nearest
   double value = 0.0;      ///< at_bound: size in the effect's unit; weak_signal: SNR; discrepancy: chance
   double needed = 0.0;     ///< weak_signal, discrepancy: of a name
   std::string along = {};  ///< contrast, condition: which
@@ -55,6 +59,9 @@ struct FittedNumber {
   double value = 0.0, interval_low = 0.0, interval_high = 0.0;
 };
 
+/// Whether the data tell a derived number: its interval is no wider than the number may be.
+bool is_told(const FittedNumber& number);
+
 /// An effect that was named, with its size (its fitted parameter) and 90 % interval in the unit of the effect.
 struct NamedEffect {
   std::string name;
@@ -62,6 +69,7 @@ struct NamedEffect {
   double parameter = 0.0;
   double interval_low = 0.0, interval_high = 0.0;
   std::string unit;
+  std::vector<FittedNumber> derived = {};  ///< Effect::derived, in its order (is_told())
   std::vector<FittedNumber> further = {};  ///< further parameters of the effect, in the order of material::Effect
 };
 
@@ -212,6 +220,7 @@ struct Cautions {
   std::vector<tester::TestKind> unreplicated;  ///< tests without replicates: a scatter is assumed
   bool nothing_replicated = false;             ///< no test has any
   bool replicates_are_equal = false;           ///< as no printed specimens are
+  std::vector<std::string> alike;              ///< conditions that go with that of the strongest contrast
   int disconnected_batches = 0;                ///< sets of batches without a common design; 0: no batches
 };
 
@@ -245,6 +254,7 @@ struct Diagnosis {
   std::vector<std::string> descriptors;  ///< names of the quantities that residuals are shown against
   std::vector<GroupCurves> curves;       ///< of fracture tests and coupons
   Cautions cautions;
+  DataSummary data;                             ///< what the set shows by itself
   double contrast_level = Levels{}.contrast;    ///< chance below which residuals line up with a contrast
   double assumed_sd = NoiseRules{}.assumed_sd;  ///< scatter where there are no replicates
   int simulations = 0;                          ///< of fracture tests, really done
@@ -255,7 +265,7 @@ struct Diagnosis {
 /// Whether the base's residuals line up with their strongest contrast beyond chance.
 bool lines_up(const Diagnosis& diagnosis);
 
-/// The result where nothing can be computed: `ambiguous`, nothing claimed, and why.
-Diagnosis undecided(const std::string& why);
+/// The result where nothing can be computed: `insufficient`, nothing claimed, and why.
+Diagnosis insufficient(const std::string& why);
 
 }  // namespace nacre::diagnosis

@@ -1,5 +1,7 @@
 #include "diagnosis/effect_size.hpp"
 
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -140,6 +142,37 @@ FittedNumber in_units(const CoordinateMap& map, int i, const SizeInterval& u) {
   return {map.value(i, u.middle), std::min(a, b), std::max(a, b)};
 }
 
+/// Numbers that follow from the parameters of effect k, with 90 % intervals to first order.
+std::vector<FittedNumber> derived_numbers(const Evidence& evidence, FittedModel named, std::size_t k) {
+  named.free_all();
+  const CoordinateMap map = evidence.model.map(named.effects);
+  const material::Effect& effect = *material::find_effect(named.effects[k]);
+  const int first = map.first_coordinate(k), count = static_cast<int>(effect.parameters.size());
+  const auto number = [&](const material::DerivedNumber& derived, const Eigen::VectorXd& u) {
+    std::vector<double> parameters;
+    for (int p = 0; p < count; ++p) parameters.push_back(map.value(first + p, u[first + p]));
+    return derived.of(parameters);
+  };
+  const Eigen::JacobiSVD<Eigen::MatrixXd> columns(named.whitened_columns(Whitener(evidence.observations.covariance())),
+                                                  Eigen::ComputeThinV);
+  constexpr double kStep = 1e-5, kOpen = 1e-3;
+  std::vector<FittedNumber> numbers;
+  for (const material::DerivedNumber& derived : effect.derived) {
+    const double value = number(derived, named.u);
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(named.u.size());
+    for (int i = first; i < first + count; ++i)
+      slope[i] = (number(derived, named.u + kStep * Eigen::VectorXd::Unit(named.u.size(), i)) - value) / kStep;
+    // Directions that the data leave open count only where the number goes along with them.
+    const Eigen::VectorXd along = columns.matrixV().transpose() * slope;
+    double variance = 0.0;
+    for (Eigen::Index j = 0; j < along.size(); ++j)
+      if (std::abs(along[j]) > kOpen * slope.norm()) variance += std::pow(along[j] / columns.singularValues()[j], 2);
+    const double half = 1.645 * student(dof_behind(evidence.observations, named, first)) * std::sqrt(variance);
+    numbers.push_back({value, value - half, value + half});
+  }
+  return numbers;
+}
+
 }  // namespace
 
 NamedModel measure_size(const Evidence& evidence, const FittedModel& named) {
@@ -159,6 +192,7 @@ NamedModel measure_size(const Evidence& evidence, const FittedModel& named) {
                              size.interval_high, std::string(effect.parameters.front().unit)});
     for (int p = 1; p < static_cast<int>(effect.parameters.size()); ++p)
       model.effects.back().further.push_back(in_units(map, i + p, by_covariance(evidence, named, i + p)));
+    model.effects.back().derived = derived_numbers(evidence, named, k);
     middles[i] = interval.middle;
     held.push_back(i);
   }

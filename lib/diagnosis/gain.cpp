@@ -49,10 +49,13 @@ bool coupons_count(const Observations& observations, const std::vector<std::stri
   return !((modulus || toughness) && layouts_change);
 }
 
-/// Rows whose errors count for the overall figure: moduli and toughness; of coupons slopes and stresses.
-bool counts(const DataRow& row, bool coupons) {
+/// Rows whose errors count for the overall figure: moduli and toughness; of coupons slopes and stresses, and moduli of
+/// homogeneous specimens.
+bool counts(const Observations& observations, int index, bool coupons) {
+  const DataRow& row = observations.rows[index];
   const bool tensile = row.test == tester::TestKind::tensile;
   if (!coupons) return !tensile && (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
+  if (row.feature == Feature::log_modulus && !tensile) return observations.group_of(index).design.mixture() != nullptr;
   return tensile && (row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 ||
                      row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak);
 }
@@ -101,12 +104,14 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
   return result;
 }
 
-/// The key of groups that are held out together: a layout with its twins, coupons of one material pulled at one rate.
-/// Without a whole material its constants would be undetermined.
+/// The key of groups that are held out together: a layout with its twins, homogeneous specimens of one material under
+/// one set of conditions. Without a whole material its constants would be undetermined.
 std::string held_out_with(const Observation& group) {
   const std::string name = group.design.name();
-  return group.test == tester::TestKind::tensile ? fmt::format("{} {}", name, group.conditions.strain_rate_per_s)
-                                                 : name;
+  if (group.design.layout()) return name;
+  if (group.test == tester::TestKind::tensile) return fmt::format("{} {}", name, group.conditions.strain_rate_per_s);
+  return fmt::format("{} {} {} {}", name, group.conditions.strain_rate_per_s, group.conditions.thickness_mm,
+                     measurement::nominal_surroundings(group.surroundings));
 }
 
 /// The rows that are held out together, in an order shuffled by the seed.
@@ -201,6 +206,13 @@ double drop_needed(const Evidence& evidence) {
   return threshold(std::move(drops), evidence.settings.procedure.levels.name);
 }
 
+Gain gain_of(const Evidence& evidence, const FittedModel& decided) {
+  std::vector<FittedModel> models = evidence.singles;
+  if (decided.effects.size() > 1) models.push_back(decided);
+  return held_out_gain(evidence.observations, evidence.base.fit, models, decided.effects, drop_needed(evidence),
+                       evidence.settings.procedure.gain, evidence.settings.seed);
+}
+
 Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
                    const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
                    std::uint64_t seed) {
@@ -212,7 +224,7 @@ Gain held_out_gain(const Observations& observations, const FittedModel& base, co
   std::vector<DesignErrors> errors(designs.size());
   for (std::size_t d = 0; d < designs.size(); ++d) {
     for (const Eigen::Index row : designs[d]) {
-      if (!counts(observations.rows[row], gain.of_coupons)) continue;
+      if (!counts(observations, static_cast<int>(row), gain.of_coupons)) continue;
       errors[d].before += std::abs(held.before[row]);
       errors[d].after += std::abs(held.after[row]);
       ++rows;

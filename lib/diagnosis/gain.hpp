@@ -10,6 +10,10 @@ namespace nacre::diagnosis {
 /// chi2 by more.
 double drop_needed(const Evidence& evidence);
 
+/// held_out_gain() of a model that was decided for, its sizes free: folds must not know a size that was fitted to all
+/// the data.
+Gain gain_of(const Evidence& evidence, const FittedModel& decided);
+
 /// Mean absolute errors on held-out patterns, base against the model that would have been selected without them: some
 /// folds of whole layouts (twins stay together) and of coupons of one material at one rate, selection repeated in each
 /// fold among `models`, linear refits around the full fits. The overall figure is that of moduli and toughness of

@@ -1,9 +1,11 @@
 #include "diagnosis/json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "diagnosis/words.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 
@@ -11,8 +13,21 @@ using nlohmann::ordered_json;
 
 namespace {
 
+/// Numbers that follow from the parameters, as far as the data tell them.
+ordered_json parameters_of(const NamedEffect& e, const material::Effect& effect) {
+  ordered_json json = ordered_json::object();
+  for (std::size_t p = 0; p < e.derived.size(); ++p) {
+    const FittedNumber& number = e.derived[p];
+    if (is_told(number))
+      json[std::string(effect.derived[p].name)] = {
+          {"value", number.value}, {"unit", "1"}, {"interval90", {number.interval_low, number.interval_high}}};
+  }
+  return json;
+}
+
 ordered_json json_of(const NamedEffect& e) {
-  ordered_json json = {{"name", e.name},
+  const material::Effect& effect = *material::find_effect(e.name);
+  ordered_json json = {{"name", effect.cause()},
                        {"family", e.family},
                        {"parameter", e.parameter},
                        {"interval90", {e.interval_low, e.interval_high}},
@@ -21,6 +36,8 @@ ordered_json json_of(const NamedEffect& e) {
     json["further"].push_back(number.value);
     json["further_interval90"].push_back({number.interval_low, number.interval_high});
   }
+  if (!effect.form.empty()) json["form"] = effect.form;
+  if (!effect.derived.empty()) json["parameters"] = parameters_of(e, effect);
   return json;
 }
 
@@ -53,6 +70,8 @@ ordered_json json_of(const SanityCheck& s) {
 
 ordered_json json_of(const NextExperiment& e);
 ordered_json json_of(const ResidualRow& r);
+ordered_json json_of(const MeasuredMean& m);
+ordered_json json_of(const ConditionTrend& t);
 
 ordered_json json_of(const FeatureGain& g) {
   return {{"feature", to_string(g.feature)},
@@ -105,6 +124,43 @@ ordered_json by_name(std::span<const double> values, std::span<const std::string
   return object;
 }
 
+ordered_json json_of(const MeasuredMean& m) {
+  return {{"design", m.design},
+          {"test", tester::to_string(m.test)},
+          {"orientation_deg", m.conditions.orientation_deg},
+          {"strain_rate_per_s", m.conditions.strain_rate_per_s},
+          {"thickness_mm", m.conditions.thickness_mm},
+          {"quantity", to_string(m.quantity)},
+          {"pieces", m.pieces},
+          {"mean_pa", m.mean_pa},
+          {"interval90_pa", {m.low_pa, m.high_pa}},
+          {"scatter", m.scatter}};
+}
+
+ordered_json json_of(const ConditionTrend& t) {
+  return {{"of", t.of},
+          {"quantity", to_string(t.quantity)},
+          {"condition", t.condition},
+          {"from", t.from},
+          {"to", t.to},
+          {"pieces", t.pieces},
+          {"ratio", t.ratio},
+          {"interval90", {t.low, t.high}},
+          {"exponent", t.exponent},
+          {"exponent_interval90", {t.exponent_low, t.exponent_high}},
+          {"p_family_wise", t.chance}};
+}
+
+/// Models by the causes of their effects, forms of one effect once.
+std::vector<std::vector<std::string>> causes_of(const std::vector<std::vector<std::string>>& models) {
+  std::vector<std::vector<std::string>> causes;
+  for (std::vector<std::string> model : models) {
+    for (std::string& effect : model) effect = material::find_effect(effect)->cause();
+    if (std::ranges::find(causes, model) == causes.end()) causes.push_back(std::move(model));
+  }
+  return causes;
+}
+
 /// Constants of the kinds of specimens that were included, by name.
 ordered_json json_of(const FittedConstants& fit) {
   ordered_json object = ordered_json::object();
@@ -133,14 +189,15 @@ std::string to_json(const Diagnosis& d) {
                                  {"numerics_shared_sd", d.discretisation_shared_sd},
                                  {"noise_known", d.noise_known},
                                  {"procedure", d.procedure},
-                                 {"possible", d.possible},
+                                 {"possible", causes_of(d.possible)},
                                  {"common_ground", in_words(d.common_ground)},
                                  {"partial_gain", d.partial_gain ? json_of(*d.partial_gain) : ordered_json(nullptr)},
                                  {"base_fit", json_of(d.base_fit)},
                                  {"extended_fit", json_of(d.extended_fit)},
                                  {"simulations", d.simulations},
                                  {"sanity", array_of(d.sanity)},
-                                 {"residuals", array_of(d.residuals)}};
+                                 {"residuals", array_of(d.residuals)},
+                                 {"data", {{"means", array_of(d.data.means)}, {"trends", array_of(d.data.trends)}}}};
   return document.dump(2);
 }
 
@@ -174,11 +231,8 @@ std::string to_json(const Plan& plan) {
                          {"score", a.score},
                          {"changes", changes}});
   }
-  return ordered_json{{"specimens", plan.specimens},
-                      {"groups", plan.groups},
-                      {"too_few", plan.too_few ? in_words(*plan.too_few) : ""},
-                      {"effects", effects},
-                      {"additions", additions}}
+  return ordered_json{
+      {"specimens", plan.specimens}, {"groups", plan.groups}, {"effects", effects}, {"additions", additions}}
       .dump(2);
 }
 

@@ -1,6 +1,9 @@
 #include "diagnosis/misfit.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "diagnosis/contrasts.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -30,6 +33,28 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
   std::stable_sort(contrasts.begin(), contrasts.end(),
                    [](const Contrast& a, const Contrast& b) { return a.statistic > b.statistic; });
   return contrasts;
+}
+
+std::vector<std::string> conditions_alike(const Evidence& evidence, const Contrast& contrast) {
+  constexpr double kSame = 0.98;
+  const std::vector<ContrastDirection>& directions = evidence.base.directions;
+  const auto own = std::ranges::find(directions, contrast.name, &ContrastDirection::name);
+  if (own == directions.end() || !is_condition(contrast.view.against)) return {};
+  Eigen::MatrixXd values(evidence.observations.size(), static_cast<Eigen::Index>(directions.size()));
+  for (Eigen::Index k = 0; k < values.cols(); ++k) values.col(k) = directions[k].values;
+  const Eigen::MatrixXd beyond =
+      projected_signatures(evidence.base.fit, values, Whitener(evidence.observations.covariance()));
+  const auto along = beyond.col(own - directions.begin());
+  std::vector<std::string> alike;
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    const ContrastView& view = directions[k].view;
+    if (!is_condition(view.against) || view.against == contrast.view.against || view.feature != contrast.view.feature ||
+        view.test != contrast.view.test)
+      continue;
+    if (std::abs(beyond.col(k).dot(along)) >= kSame * beyond.col(k).norm() * along.norm())
+      alike.push_back(view.against);
+  }
+  return alike;
 }
 
 double chance_of_base_misfit(const Evidence& evidence) {

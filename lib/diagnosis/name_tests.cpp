@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
 #include "diagnosis/shared_discretisation.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -53,6 +55,18 @@ double weakest_signal(const Evidence& evidence, const FittedModel& model) {
   return weakest;
 }
 
+/// The directions along which an unmodelled cause may act beside these effects. What changes with the strain rate is
+/// rate dependence, whatever its form: where rate alone differs nothing else can look like it, and where it goes with
+/// another condition the direction of that one stays.
+Anchor without_own_direction(Anchor anchor, std::span<const std::string> effects) {
+  const bool of_rate = std::ranges::any_of(
+      effects, [](const std::string& name) { return material::find_effect(name)->family == "rate"; });
+  if (of_rate)
+    std::erase_if(anchor.directions,
+                  [](const ContrastDirection& direction) { return direction.view.against == "strain rate"; });
+  return anchor;
+}
+
 /// The contrast, or smooth law of the stiffness, that explains more when it is added to the anchor in place of the
 /// model's effect. Effects that are such a contrast themselves, like a drift from batch to batch, are level with it;
 /// others must beat it.
@@ -88,12 +102,17 @@ NameTests tested_for_a_name(const Evidence& evidence, const FittedModel& model) 
   const NoisyData data{observations.values, Whitener(observations.covariance())};
   const double signal = weakest_signal(evidence, model);
   const int count = static_cast<int>(model.effects.size());
-  NameTests tests{.p_outside = tested_against_discrepancy(evidence, evidence.base, model.chi2, count).p};
+  NameTests tests{.p_outside = tested_against_discrepancy(evidence, without_own_direction(evidence.base, model.effects),
+                                                          model.chi2, count)
+                                   .p};
   std::string contrast, condition;
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
     const Anchor anchor = anchor_without(evidence, model, effect);
     if (count > 1)
-      tests.p_outside = std::max(tests.p_outside, tested_against_discrepancy(evidence, anchor, model.chi2, 1).p);
+      tests.p_outside = std::max(
+          tests.p_outside, tested_against_discrepancy(
+                               evidence, without_own_direction(anchor, {&model.effects[effect], 1}), model.chi2, 1)
+                               .p);
     if (contrast.empty()) contrast = contrast_instead(observations, anchor, data, model, rules);
     if (condition.empty()) condition = condition_instead(observations, anchor, data, model, rules);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "diagnosis/scatter.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/observe.hpp"
+#include "measurement/piece.hpp"
 #include "measurement/summary.hpp"
 
 namespace nacre::diagnosis {
@@ -19,7 +21,7 @@ namespace {
 using measurement::SpecimenRecord;
 using tester::TestKind;
 
-using GroupKey = std::tuple<int, std::string, double, double, double, bool>;
+using GroupKey = std::tuple<int, std::string, double, double, double, bool, std::string>;
 
 bool is_unloaded_coupon(const SpecimenRecord& specimen, const CurveReading& reading) {
   return specimen.test == TestKind::tensile && is_unloaded(specimen.curve, reading);
@@ -32,7 +34,8 @@ GroupKey key_of(const SpecimenRecord& specimen, const CurveReading& reading) {
           c.orientation_deg,
           c.strain_rate_per_s,
           c.thickness_mm,
-          is_unloaded_coupon(specimen, reading)};
+          is_unloaded_coupon(specimen, reading),
+          measurement::nominal_surroundings(measurement::surroundings_of(specimen))};
 }
 
 FeatureValues features_of(const SpecimenRecord& specimen, const CurveReading& reading) {
@@ -80,22 +83,49 @@ std::optional<double> common_strain(const std::vector<Measured>& replicates, con
   return common;
 }
 
+/// Tests of one piece under equal conditions tell of one piece: the means of their features.
+std::vector<Measured> one_of_each_piece(const std::vector<Measured>& tests) {
+  std::vector<Measured> pieces;
+  std::vector<int> counts;
+  for (const Measured& test : tests) {
+    const auto known = std::ranges::find_if(pieces, [&](const Measured& piece) {
+      return measurement::piece_of(*piece.specimen) == measurement::piece_of(*test.specimen);
+    });
+    if (known == pieces.end()) {
+      pieces.push_back(test);
+      counts.push_back(1);
+      continue;
+    }
+    const int count = ++counts[known - pieces.begin()];
+    for (std::size_t f = 0; f < kFeatureCount; ++f) {
+      if (!known->features[f] || !test.features[f])
+        known->features[f].reset();
+      else
+        *known->features[f] += (*test.features[f] - *known->features[f]) / count;
+    }
+  }
+  return pieces;
+}
+
 Observation mean_of(const std::vector<Measured>& replicates, const CurveReading& reading) {
   Observation group;
   const SpecimenRecord& first = *replicates.front().specimen;
   group.design = first.design;
   group.test = first.test;
   group.conditions = first.conditions;
+  group.surroundings = measurement::surroundings_of(first);
   group.unloaded = is_unloaded_coupon(first, reading);
   group.replicates = static_cast<int>(replicates.size());
   int with_order = 0;
   for (const Measured& each : replicates) {
+    group.pieces.push_back(measurement::piece_of(*each.specimen));
     if (each.specimen->print_order > 0) {
       group.print_order += static_cast<double>(each.specimen->print_order);
       ++with_order;
     }
     group.batch_step += each.batch_step / group.replicates;
   }
+  std::ranges::sort(group.pieces);
   if (with_order > 0) group.print_order /= with_order;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     // A feature that one replicate lacks is left out of the group, so that groups of one kind have the same features.
@@ -200,9 +230,22 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
   return c.size() ? std::sqrt(c(f, f)) : 0.0;
 }
 
+double Observations::piece_covariance(int i, int j) const {
+  const ReplicateScatter& own = scatter[rows[i].scatter];
+  if (own.piece_share <= 0.0) return 0.0;
+  const Observation &one = group_of(i), &other = group_of(j);
+  std::vector<std::string> both;
+  std::ranges::set_intersection(one.pieces, other.pieces, std::back_inserter(both));
+  return own.piece_share *
+         own.covariance(static_cast<Eigen::Index>(rows[i].feature), static_cast<Eigen::Index>(rows[j].feature)) *
+         static_cast<double>(both.size()) / (one.replicates * other.replicates);
+}
+
 RowCovariance Observations::row_covariance(int i, int j) const {
   const DataRow &a = rows[i], &b = rows[j];
   RowCovariance covariance;
+  if (a.kind == RowKind::mean && b.kind == RowKind::mean && a.group != b.group && a.scatter == b.scatter)
+    covariance.scatter = piece_covariance(i, j);
   if (a.kind == RowKind::constant && i == j) covariance.fixed = constant_sd * constant_sd;
   if (a.kind == RowKind::constant || b.kind == RowKind::constant) return covariance;
   if (a.test != b.test || a.kind != b.kind) return covariance;
@@ -282,9 +325,16 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     if (common)
       for (Measured& each : groups.back())
         each.features = tensile_features(tester::cut_at(each.specimen->curve, *common), reading);
+    groups.back() = one_of_each_piece(groups.back());
     observations.groups.push_back(mean_of(groups.back(), reading));
     if (common) observations.groups.back().curve = tester::cut_at(observations.groups.back().curve, *common);
   }
+  std::set<std::string> machines;
+  for (const Observation& group : observations.groups) machines.insert(group.surroundings.machine);
+  observations.machines.assign(machines.begin(), machines.end());
+  for (Observation& group : observations.groups)
+    group.machine = static_cast<int>(std::ranges::find(observations.machines, group.surroundings.machine) -
+                                     observations.machines.begin());
   observations.disconnected_batches = disconnected_batches(groups);
   std::vector<double> values;
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -12,20 +12,24 @@
 #include "diagnosis/material_constants.hpp"
 #include "diagnosis/procedure.hpp"
 #include "measurement/specimen_record.hpp"
+#include "measurement/surroundings.hpp"
 
 namespace nacre::diagnosis {
 
-/// One group of replicate specimens: a design under one test and one set of conditions. Coupons that were unloaded on
-/// their way are a group of their own.
+/// One group of replicate specimens: a design under one test, one set of conditions and in the same surroundings.
+/// Coupons that were unloaded on their way are a group of their own.
 struct Observation {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  bool unloaded = false;   ///< a coupon that was unloaded on its way
-  FeatureValues features;  ///< means over the valid replicates
-  int replicates = 0;
-  double print_order = 0.0;      ///< mean, 0 when unknown
-  double batch_step = 0.0;       ///< mean number of the batch, the first is 0
+  measurement::Surroundings surroundings = {};  ///< of the first replicate
+  int machine = 0;                              ///< its number in the order of the names of all machines, from 0
+  bool unloaded = false;                        ///< a coupon that was unloaded on its way
+  FeatureValues features;                       ///< means over the valid replicates
+  int replicates = 0;                           ///< pieces: tests of one piece count once
+  std::vector<std::string> pieces;              ///< sorted
+  double print_order = 0.0;                     ///< mean, 0 when unknown
+  double batch_step = 0.0;                      ///< mean number of the batch, the first is 0
   tester::Curve curve;           ///< of the replicate whose peak is the middle one; empty when none was recorded
   std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
@@ -90,6 +94,7 @@ struct ReplicateScatter {
   Eigen::MatrixXd covariance;  ///< features x features
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
   int assumed_dof = 0;         ///< further ones that are assumed
+  double piece_share = 0.0;    ///< of the variance, what a piece keeps from one group to another that it is also in
 };
 
 /// Factors on the replicate variances, in the order of Observations::scatter.
@@ -122,8 +127,9 @@ struct Observations {
   Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
                                                    ///< standard deviation; may be empty
   Eigen::VectorXd emulator_variance;               ///< per row; empty: none
-  int disconnected_batches = 0;  ///< sets of batches without a common design under equal conditions; 0: no batches
-  double last_batch_step = 0.0;  ///< of all specimens; 0: there is one batch, or none is known
+  int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
+  double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
+  std::vector<std::string> machines;  ///< their names, sorted
   std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
   int size() const { return rows.size(); }
   const Observation& group_of(int row) const { return groups[rows[row].group]; }
@@ -132,6 +138,8 @@ struct Observations {
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
   int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
+  /// Covariance of the means of two groups, because some pieces are in both.
+  double piece_covariance(int i, int j) const;
   /// Covariance of two rows, but for the shared directions and the emulator. The discretisation error is the same for
   /// all specimens of one layout under one test: rotated twins share it.
   RowCovariance row_covariance(int i, int j) const;

@@ -6,6 +6,7 @@
 
 #include "diagnosis/global_fit.hpp"
 #include "diagnosis/misfit.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -28,7 +29,9 @@ std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
 std::vector<FittedModel> significant_pairs(const Evidence& evidence, const FittedModel& single) {
   std::vector<std::string> others;
   for (const std::string& effect : evidence.effects) {
-    if (effect != single.effects.front()) others.push_back(effect);
+    // Two forms of one effect are no two effects.
+    if (material::find_effect(effect)->cause() != material::find_effect(single.effects.front())->cause())
+      others.push_back(effect);
   }
   const Anchor anchor{
       single, signatures_on(evidence.model, single, others, evidence.settings.procedure.fit.sizes), {}, {}};

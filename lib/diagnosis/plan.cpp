@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
@@ -196,19 +195,8 @@ PlannedEffect judged(PlannedEffect planned, const DesignMatrix& matrix, const Pl
   return planned;
 }
 
-/// Groups that some rows are of.
-std::vector<Observation> groups_in(const Observations& observations, const std::vector<Eigen::Index>& rows) {
-  std::set<int> indices;
-  for (const Eigen::Index row : rows) indices.insert(observations.rows[row].group);
-  std::vector<Observation> groups;
-  for (const int index : indices)
-    if (index >= 0) groups.push_back(observations.groups[index]);
-  return groups;
-}
-
-/// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
+/// Every effect, as a diagnosis of these rows alone would judge it.
 std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<Eigen::Index>& rows) {
-  const bool enough = !too_few(groups_in(matrix.observations, rows), matrix.procedure.noise);
   const PlannedSignatures signatures = planned_signatures_of(matrix, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
@@ -218,7 +206,7 @@ std::vector<PlannedEffect> judge(const DesignMatrix& matrix, const std::vector<E
     planned.unit = effect.parameters.front().unit;
     const auto found = std::ranges::find(matrix.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - matrix.signatures.begin());
-    const bool shown = enough && found != matrix.signatures.end() && signatures.projected[k].norm() >= 1e-6;
+    const bool shown = found != matrix.signatures.end() && signatures.projected[k].norm() >= 1e-6;
     effects.push_back(shown ? judged(std::move(planned), matrix, signatures, k) : std::move(planned));
   }
   return effects;
@@ -308,7 +296,6 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   Plan plan;
   plan.specimens = static_cast<int>(specimens.size());
   plan.groups = static_cast<int>(alone.groups.size());
-  plan.too_few = too_few(alone.groups, settings.procedure.noise);
   plan.effects = judge(matrix, rows_with({}));
   for (const auto& [words, tests] : added) {
     PlannedAddition addition = compare(words, tests, plan.effects, judge(matrix, rows_with(tests)), rules);

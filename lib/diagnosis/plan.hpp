@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/scatter.hpp"
 #include "diagnosis/settings.hpp"
 #include "measurement/specimen_record.hpp"
@@ -52,13 +51,11 @@ struct Plan {
   std::vector<PlannedEffect> effects;      ///< in the order of material::effect_library()
   std::vector<PlannedAddition> additions;  ///< the most helpful first; those that change nothing are left out
   int specimens = 0, groups = 0;
-  std::optional<TooFew> too_few;  ///< the set is too small for a diagnosis
 };
 
 /// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters
 /// stand for the truth; fracture tests are simulated around them as in a diagnosis (and kept in the store). Without
-/// `additions` only the specimens themselves are judged. Specimens that are too few for a diagnosis show no effect;
-/// additions are proposed all the same. Throws TooFewSpecimens where not even additions make them enough.
+/// `additions` only the specimens themselves are judged. Throws NothingMeasured where there are none.
 Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter = {}, bool additions = true);
 

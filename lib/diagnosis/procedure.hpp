@@ -42,8 +42,7 @@ struct NoiseRules {
   int dof_per_batch = 4;           ///< means of batches come off where so many degrees of freedom a batch are left
   int fewest_for_history = 6;      ///< specimens behind a change over batches or print order
   double constant_sd = 0.11;       ///< of log(E in layouts / E of its own specimens): +-20 % of Table A.2 as 90 %
-  int fewest_groups = 8;           ///< of layouts, or
-  int fewest_coupons = 4;          ///< of coupons: a diagnosis needs so many
+  double piece_sd = 0.1;           ///< between pieces that were each tested under several conditions, none replicated
   static constexpr void fields(auto& field, auto& m);
 };
 

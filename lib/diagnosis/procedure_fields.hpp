@@ -32,8 +32,7 @@ constexpr void NoiseRules::fields(auto& field, auto& m) {
   field("dof_per_batch", m.dof_per_batch);
   field("fewest_for_history", m.fewest_for_history);
   field("constant_sd", m.constant_sd);
-  field("fewest_groups", m.fewest_groups);
-  field("fewest_coupons", m.fewest_coupons);
+  field("piece_sd", m.piece_sd);
 }
 
 constexpr void ConstantRules::fields(auto& field, auto& m) {

@@ -5,6 +5,9 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
+
+#include "measurement/piece.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -124,6 +127,50 @@ Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int d
   return products;
 }
 
+/// The share of their variance that pieces keep from one group to another: the mean of the products of their deviations
+/// in both, over that of the squares. 0 where no two pieces of a group are in another.
+double piece_share_of(const std::vector<Deviation>& deviations) {
+  std::map<std::string, std::vector<const Deviation*>> of_piece;
+  for (const Deviation& d : deviations) of_piece[measurement::piece_of(*d.measured->specimen)].push_back(&d);
+  double products = 0.0, squares = 0.0;
+  for (const auto& [piece, own] : of_piece) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (own[i]->group == own[j]->group) continue;
+        for (std::size_t f = 0; f < kFeatureCount; ++f) {
+          const auto &a = own[i]->from_mean[f], &b = own[j]->from_mean[f];
+          if (!a || !b) continue;
+          products += *a * *b;
+          squares += 0.5 * (*a * *a + *b * *b);
+        }
+      }
+    }
+  }
+  constexpr double kMost = 0.999;  // a covariance must stay positive definite
+  return squares > 0.0 ? std::clamp(products / squares, 0.0, kMost) : 0.0;
+}
+
+/// Whether a piece was tested in several groups of this test.
+bool pieces_return(const std::vector<std::vector<Measured>>& groups, tester::TestKind test) {
+  std::set<std::string> seen;
+  for (const auto& group : groups)
+    for (const Measured& each : group)
+      if (each.specimen->test == test && !seen.insert(measurement::piece_of(*each.specimen)).second) return true;
+  return false;
+}
+
+/// Without replicates. Where one piece stands for a material at all conditions, how it differs from the next piece is
+/// assumed too, and what changes from one of its tests to the next is known as well as a single test.
+ReplicateScatter assumed_for(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
+                             Eigen::MatrixXd covariance, const NoiseRules& rules) {
+  ReplicateScatter scatter{std::move(covariance), 0, rules.enough_dof};
+  if (!pieces_return(groups, test)) return scatter;
+  const double times = std::pow(rules.piece_sd / rules.assumed_sd, 2);
+  scatter.covariance *= times;
+  scatter.piece_share = 1.0 - 1.0 / times;
+  return scatter;
+}
+
 /// Degrees of freedom within groups.
 int dof_within(const std::vector<Deviation>& deviations) {
   std::set<int> groups;
@@ -190,6 +237,7 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   const bool by_batch = differences > 0 && within >= rules.dof_per_batch * differences;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
+  scatter.piece_share = piece_share_of(deviations);
   scatter.dof = within - (by_batch ? differences : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
@@ -198,7 +246,7 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   }
   const AssumedScatter assumption = assumed_scatter(rules);
   const Eigen::MatrixXd assumed = covariance_of(assumption, rules);
-  if (scatter.dof <= 0) return {assumed, 0, rules.enough_dof};
+  if (scatter.dof <= 0) return assumed_for(groups, test, assumed, rules);
   int features = 0;
   for (std::size_t f = 0; f < kFeatureCount; ++f)
     features += std::any_of(deviations.begin(), deviations.end(),

@@ -32,8 +32,8 @@ struct DiagnosisSettings {
   std::function<void(double, std::string_view)> progress = {};
 };
 
-/// Specimens that are too few for any statement: the result is undecided().
-class TooFewSpecimens : public InputError {
+/// No row to diagnose: the result is insufficient().
+class NothingMeasured : public InputError {
   using InputError::InputError;
 };
 

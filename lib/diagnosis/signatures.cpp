@@ -1,6 +1,9 @@
 #include "diagnosis/signatures.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "diagnosis/bootstrap.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -13,7 +16,36 @@ std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) 
   return all;
 }
 
+/// Where the further parameters of an effect are tried beside their usual values, one at a time, at the third size and
+/// its negative.
+std::vector<Eigen::VectorXd> other_values(const CoordinateMap& map, const std::vector<Eigen::VectorXd>& points, int own,
+                                          std::size_t sizes) {
+  constexpr std::array<double, 2> kShares = {0.2, 0.8};
+  constexpr std::size_t kSize = 2;
+  std::vector<Eigen::VectorXd> others;
+  for (std::size_t at = std::min(kSize, sizes - 1); at < points.size(); at += sizes) {
+    for (int further = own + 1; further < map.size(); ++further) {
+      for (const double share : kShares) {
+        others.push_back(points[at]);
+        others.back()[further] = map.lower(further) + share * (map.upper(further) - map.lower(further));
+      }
+    }
+  }
+  return others;
+}
+
 }  // namespace
+
+Eigen::VectorXd usual_change(const Signature& signature, int usual, const FittedModel& anchor,
+                             const Whitener& whitener) {
+  Eigen::VectorXd change = signature.changes.col(usual);
+  double most = signature_size(anchor, change, whitener).projected;
+  for (const auto& other : signature.elsewhere.colwise()) {
+    const double size = signature_size(anchor, other, whitener).projected;
+    if (size > most) most = size, change = other;
+  }
+  return change;
+}
 
 std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
                                      const std::vector<std::string>& effects, std::span<const double> sizes) {
@@ -23,13 +55,15 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const FittedMode
     names.push_back(effect);
     const CoordinateMap map = model.map(names);
     const int own = anchor.u.size();
-    Signature signature{effect, {}, map.lower(own) >= 0.0};
+    Signature signature{.effect = effect, .changes = {}, .one_sided = map.lower(own) >= 0.0};
     std::vector<Eigen::VectorXd> points;
     for (const double size : signed_sizes(sizes, signature.one_sided)) {
       points.push_back(widened_start(anchor, map));
       points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
     }
     signature.changes = model.predict(map, points).colwise() - anchor.predicted;
+    const std::vector<Eigen::VectorXd> others = other_values(map, points, own, sizes.size());
+    if (!others.empty()) signature.elsewhere = model.predict(map, others).colwise() - anchor.predicted;
     signatures.push_back(std::move(signature));
   }
   return signatures;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/name_tests.hpp"
 #include "diagnosis/rivals.hpp"
 #include "diagnosis/untold_materials.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -20,13 +22,28 @@ Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, F
   return decision;
 }
 
-/// Names one, or keeps several (`possible` is not empty); none where an unmodelled cause could look the same.
+/// Whether all these models are forms of one effect: the cause is known, its form is open.
+bool are_forms_of_one(const std::vector<FittedModel>& models) {
+  return std::ranges::all_of(models, [&](const FittedModel& model) {
+    return model.effects.size() == 1 && material::find_effect(model.effects.front())->cause() ==
+                                            material::find_effect(models.front().effects.front())->cause();
+  });
+}
+
+/// Names one, or keeps several (`possible` is not empty); none where an unmodelled cause could look the same, or the
+/// name predicts designs that it has not seen worse than the base does.
 Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, Reason reason) {
   const FittedModel& best = possible.front();
   const NameTests tests = tested_for_a_name(evidence, best);
   decision.p_outside = tests.p_outside;
   if (tests.objection) return unexplained(std::move(decision), possible, *tests.objection);
-  decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
+  const bool one_cause = possible.size() == 1 || are_forms_of_one(possible);
+  if (one_cause) {
+    decision.gain = gain_of(evidence, best);
+    if (decision.gain->interval_high < 0.0)
+      return unexplained(std::move(decision), possible, {.reason = Reason::worse_unseen, .nearest = best.effects});
+  }
+  decision.verdict = one_cause ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
   decision.finding.reason = reason;
   return decision;
@@ -39,10 +56,25 @@ Finding at_its_bound(const FittedModel& single) {
           .value = single.parameters.extensions.at(single.effects.front()).front()};
 }
 
+/// Whether an effect of usual size would have been visible on these specimens.
+bool something_would_show(const Evidence& evidence) {
+  const Procedure& rules = evidence.settings.procedure;
+  const Whitener whitener(evidence.observations.covariance());
+  return std::ranges::any_of(evidence.base.signatures, [&](const Signature& signature) {
+    const Eigen::VectorXd usual = usual_change(signature, rules.fit.typical, evidence.base.fit, whitener);
+    return signature_size(evidence.base.fit, usual, whitener).projected >= rules.names.visible_signal;
+  });
+}
+
 /// No effect improves the fit beyond chance.
 Decision decided_without_effects(const Evidence& evidence, Decision decision) {
   if (evidence.p_misfit < evidence.settings.procedure.levels.unexplained)
     return unexplained(std::move(decision), evidence.singles, {.reason = Reason::no_effect_helps});
+  if (!something_would_show(evidence)) {
+    decision.verdict = Verdict::insufficient;
+    decision.finding.reason = Reason::nothing_visible;
+    return decision;
+  }
   decision.finding.reason = Reason::residuals_are_noise;
   return decision;
 }

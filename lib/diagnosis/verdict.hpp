@@ -13,8 +13,9 @@ namespace nacre::diagnosis {
 /// What was decided: models that stay possible, the best first; empty with `base_sufficient` and `unexplained`.
 struct Decision {
   Verdict verdict = Verdict::base_sufficient;
-  std::vector<FittedModel> possible;
+  std::vector<FittedModel> possible;   ///< several with `named`: forms of one effect
   std::optional<FittedModel> partial;  ///< best model of an unexplained misfit
+  std::optional<Gain> gain;            ///< of the one model that stays possible
   double p_outside = 1.0;  ///< chance that an unmodelled cause would give a name as surely (discrepancy_model.hpp); 1
                            ///< when not tested
   std::vector<Contrast> contrasts;     ///< of the base model's residuals, strongest first

@@ -20,9 +20,17 @@ std::string with_interval(const FittedNumber& number, std::string_view unit) {
 
 /// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and the further parameters of an effect.
 std::string size_in_words(const NamedEffect& e) {
+  const material::Effect& effect = *material::find_effect(e.name);
+  if (!e.derived.empty()) {
+    std::vector<std::string> told;
+    for (std::size_t p = 0; p < e.derived.size(); ++p)
+      if (is_told(e.derived[p]))
+        told.push_back(fmt::format("{} {}", effect.derived[p].meaning, with_interval(e.derived[p], "1")));
+    return fmt::format("{}, {}", material::effect_in_words(e.name), fmt::join(told, ", "));
+  }
   std::string words = fmt::format("{} = {}", material::effect_in_words(e.name),
                                   with_interval({e.parameter, e.interval_low, e.interval_high}, e.unit));
-  const auto& numbers = material::find_effect(e.name)->parameters;
+  const auto& numbers = effect.parameters;
   for (std::size_t p = 0; p < e.further.size(); ++p)
     words += fmt::format(", {} {}", numbers[p + 1].meaning, with_interval(e.further[p], numbers[p + 1].unit));
   return words;
@@ -58,6 +66,9 @@ std::string objection_in_words(const Finding& finding) {
           "it "
           "(homogeneous coupons of each {} would show which)",
           finding.along, finding.along);
+    case Reason::worse_unseen:
+      return "designs that were held out of the fit are predicted worse with it than without: what it explains is not "
+             "what happens elsewhere";
     default:
       return fmt::format(
           "an unmodelled cause could look the same: data drawn from a discrepancy model, which knows no physics, "
@@ -95,6 +106,9 @@ std::string reason_in_words(const Diagnosis& d) {
           "needs "
           "ranges of its own, or an effect is missing",
           in_words(d.untold));
+    case Reason::nothing_visible:
+      return "nothing contradicts the base model, but none of the effects that act on these tests would have been "
+             "visible at its usual size";
     default:
       return fmt::format("{} comes nearest, but {}", in_words(finding.nearest), objection_in_words(finding));
   }
@@ -110,6 +124,8 @@ std::string named_in_words(const Diagnosis& d) {
   std::string text = "The simulation lacks ";
   for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
   text += fmt::format(": {}.", reason_in_words(d));
+  if (d.possible.size() > 1)
+    text += fmt::format(" Its form is open: {} explain these data equally well.", models_in_words(d.possible));
   if (d.gain) text += " " + gain_in_words(*d.gain) + choice_in_words(*d.gain);
   return text;
 }
@@ -142,6 +158,8 @@ std::string verdict_in_words(const Diagnosis& d) {
           d.common_ground.kind == CommonGround::Kind::nothing
               ? ""
               : fmt::format(" Common to all of them: {}.", in_words(d.common_ground)));
+    case Verdict::insufficient:
+      return insufficient_in_words(reason_in_words(d));
     case Verdict::unexplained:
       break;
   }
@@ -191,6 +209,13 @@ std::string batches_in_words(const Diagnosis& d) {
       " Caution: the batches fall into {} sets without a common design, so that differences between batches look like "
       "differences between designs: print one design in every batch.",
       d.cautions.disconnected_batches);
+}
+
+/// What the strongest contrast cannot be told from.
+std::string alike_in_words(const Diagnosis& d) {
+  if (d.cautions.alike.empty()) return "";
+  return fmt::format(" These data cannot part {} from {}: a specimen under each of both would.",
+                     d.contrasts.front().view.against, fmt::join(d.cautions.alike, " and "));
 }
 
 std::string bounds_in_words(const Diagnosis& d) {
@@ -318,13 +343,6 @@ std::string in_words(const RowsOf& rows) {
   return rows.material.empty() ? "coupons" : rows.material + " coupons";
 }
 
-std::string in_words(const TooFew& few) {
-  return fmt::format(
-      "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
-      "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
-      few.layouts_needed, few.coupons_needed, few.layouts, few.coupons);
-}
-
 std::string left_out_in_words(const IncludedSpecimens& included) {
   if (included.fractures_left_out == 0) return "";
   return fmt::format(
@@ -344,6 +362,26 @@ std::string in_words(const UntoldMaterial& untold) {
       "that "
       "the model lacks",
       kConstantMaterials[untold.modulus.material], untold.modulus.modulus_pa);
+}
+
+std::string in_words(const ConditionTrend& trend) {
+  const std::string of = fmt::format("{} of {}", to_string(trend.quantity), trend.of);
+  if (trend.exponent_low != trend.exponent_high)
+    return fmt::format("{} goes with the strain rate to the power {:.3g} (90 % interval {:.3g} to {:.3g})", of,
+                       trend.exponent, trend.exponent_low, trend.exponent_high);
+  return fmt::format("{} is {:.3g} times as large at {} {} as at {} (90 % interval {:.3g} to {:.3g})", of, trend.ratio,
+                     trend.condition, trend.to, trend.from, trend.low, trend.high);
+}
+
+std::string trends_in_words(const DataSummary& data) {
+  if (data.trends.empty()) return "";
+  constexpr std::size_t kMost = 3;
+  constexpr double kSure = 0.05;
+  std::vector<std::string> sure;
+  for (const ConditionTrend& trend : data.trends)
+    if (trend.chance < kSure && sure.size() < kMost) sure.push_back(in_words(trend));
+  if (sure.empty()) return " By themselves the data change with no condition beyond scatter.";
+  return fmt::format(" By themselves the data show: {}.", fmt::join(sure, "; "));
 }
 
 std::string bundle_in_words(const PossibleTest& test) {
@@ -372,14 +410,12 @@ std::string gain_in_words(const Gain& gain) {
   const std::string interval =
       fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
   const std::string_view designs =
-      gain.of_coupons ? "held-out coupons the mean error of slopes and stresses" : "held-out designs the mean error";
+      gain.of_coupons ? "held-out specimens the mean error" : "held-out designs the mean error";
   if (gain.interval_low > 0.0)
     return fmt::format("On {} falls from {:.3g} to {:.3g} %, a reduction by {:.0f} % ({}).", designs, before, after,
                        100.0 * gain.relative_reduction, interval);
   if (gain.interval_high < 0.0)
-    return fmt::format(
-        "Yet on {} grows from {:.3g} to {:.3g} %: the cause is established, its use for predictions is not.", designs,
-        before, after);
+    return fmt::format("On {} grows from {:.3g} to {:.3g} % with it.", designs, before, after);
   return fmt::format(
       "Its gain is not established: on {} is {:.3g} % without it and {:.3g} % with it (reduction {:.0f} %, {}).",
       designs, before, after, 100.0 * gain.relative_reduction, interval);
@@ -401,7 +437,7 @@ std::string choice_in_words(const Gain& gain) {
 }
 
 std::string summary_of(const Diagnosis& d) {
-  std::string text = verdict_in_words(d) + other_materials_in_words(d.cautions.other_materials) +
+  std::string text = verdict_in_words(d) + other_materials_in_words(d.cautions.other_materials) + alike_in_words(d) +
                      disagreement_in_words(d.cautions.out_of_line, d.verdict) + discretisation_in_words(d.sanity) +
                      batches_in_words(d);
   if (d.cautions.replicates_are_equal)
@@ -411,6 +447,6 @@ std::string summary_of(const Diagnosis& d) {
   return text + bounds_in_words(d) + assumption_in_words(d);
 }
 
-std::string undecided_in_words(const std::string& why) { return "These data cannot tell yet: " + why + "."; }
+std::string insufficient_in_words(const std::string& why) { return "These data cannot tell yet: " + why + "."; }
 
 }  // namespace nacre::diagnosis

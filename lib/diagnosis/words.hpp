@@ -26,9 +26,6 @@ std::string in_words(const CommonGround& ground);
 /// "soft coupons"; empty: no rows.
 std::string in_words(const RowsOf& rows);
 
-/// Why these are too few for a diagnosis, without a full stop.
-std::string in_words(const TooFew& few);
-
 /// A sentence with a space in front on specimens that are left out; empty where none are.
 std::string left_out_in_words(const IncludedSpecimens& included);
 
@@ -43,6 +40,11 @@ struct UntoldMaterial {
   ModulusAtBound modulus;
 };
 std::string in_words(const UntoldMaterial& untold);
+
+/// "modulus of mix:0.75 grows as the strain rate to the power 0.12 (90 % interval 0.10 to 0.14)"
+std::string in_words(const ConditionTrend& trend);
+/// What the data show by themselves, a sentence with a space in front; empty: no condition varies.
+std::string trends_in_words(const DataSummary& data);
 
 /// What a plan adds together: "checkerboards of period 1, 2 and 5"; and one specimen of it.
 std::string bundle_in_words(const PossibleTest& test);
@@ -61,6 +63,6 @@ std::string choice_in_words(const Gain& gain);
 std::string summary_of(const Diagnosis& diagnosis);
 
 /// Where nothing can be computed.
-std::string undecided_in_words(const std::string& why);
+std::string insufficient_in_words(const std::string& why);
 
 }  // namespace nacre::diagnosis

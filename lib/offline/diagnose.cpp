@@ -14,20 +14,27 @@ diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
                                   const diagnosis::DiagnosisSettings& settings) {
   try {
     return diagnosis::diagnose(part.specimens, settings);
-  } catch (const diagnosis::TooFewSpecimens& problem) {
-    return diagnosis::undecided(problem.what());
+  } catch (const diagnosis::NothingMeasured& problem) {
+    return diagnosis::insufficient(problem.what());
   }
 }
 
 }  // namespace
 
-diagnosis::Diagnosis diagnose_set(const measurement::MeasurementSet& set, bool fracture,
-                                  const diagnosis::DiagnosisSettings& settings) {
+DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, bool fracture,
+                          const diagnosis::DiagnosisSettings& settings) {
   const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, fracture);
-  diagnosis::Diagnosis diagnosis = diagnosis_of(part, settings);
-  diagnosis.summary +=
-      left_out_in_words(part) + specimen_unit_doubts(set.specimens, settings.start, settings.fidelity).caution;
-  return diagnosis;
+  DiagnosedSet diagnosed{diagnosis_of(part, settings), {}};
+  diagnosis::Diagnosis& diagnosis = diagnosed.diagnosis;
+  diagnosis.data = diagnosis::summary_of_data(set.specimens, settings.procedure.noise);
+  if (diagnosis.verdict == diagnosis::Verdict::insufficient) diagnosis.summary += trends_in_words(diagnosis.data);
+  ExpectedMaterials expected{settings.start, settings.start};
+  if (diagnosis.base_fit.modulus) expected.of_layouts.modulus = *diagnosis.base_fit.modulus;
+  if (diagnosis.base_fit.coupon) expected.of_homogeneous.modulus = *diagnosis.base_fit.coupon;
+  SpecimenUnitDoubts doubts = specimen_unit_doubts(set.specimens, expected, settings.fidelity);
+  diagnosis.summary += left_out_in_words(part) + doubts.caution;
+  diagnosed.unit_doubts = std::move(doubts.first);
+  return diagnosed;
 }
 
 nlohmann::ordered_json diagnosis_json(const diagnosis::Diagnosis& diagnosis,

@@ -11,6 +11,7 @@
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "pattern/coupons.hpp"
+#include "report/data_exhibit.hpp"
 #include "report/diagnosis_figures.hpp"
 #include "report/page.hpp"
 #include "report/report_diagnosis.hpp"
@@ -25,10 +26,8 @@ using diagnosis::CandidateStatus;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-/// Too few data (diagnosis::undecided): nothing was weighed, only the summary says something.
-bool is_undecided(const Diagnosis& d) {
-  return d.verdict == Verdict::ambiguous && d.possible.empty() && d.candidates.empty();
-}
+/// Nothing could be computed (diagnosis::insufficient): only the summary, and the data themselves, say something.
+bool nothing_was_weighed(const Diagnosis& d) { return d.verdict == Verdict::insufficient && d.candidates.empty(); }
 
 /// Effects that act together: "a with b".
 std::string names_of(const std::vector<std::string>& effects, std::string_view between) {
@@ -49,7 +48,9 @@ std::string headline(const Diagnosis& d) {
       return "The cause is " + names_of(effects, " and ");
     }
     case Verdict::ambiguous:
-      return is_undecided(d) ? "These data cannot tell yet" : "Something is wrong; these data leave several causes";
+      return "Something is wrong; these data leave several causes";
+    case Verdict::insufficient:
+      return "Too little was measured to tell";
     case Verdict::unexplained:
       break;
   }
@@ -273,7 +274,10 @@ Exhibit method_exhibit(const Diagnosis& d, tester::Fidelity fidelity) {
 
 /// All that was found, and how.
 std::vector<Exhibit> findings(const Diagnosis& d, tester::Fidelity fidelity) {
-  std::vector<Exhibit> exhibits = {where_exhibit(d)};
+  std::vector<Exhibit> exhibits;
+  if (shows_data(d.data)) exhibits.push_back(data_exhibit(d.data));
+  if (nothing_was_weighed(d)) return exhibits;
+  exhibits.push_back(where_exhibit(d));
   if (!d.curves.empty()) exhibits.push_back(curve_exhibit(d));
   exhibits.push_back(cause_exhibit(d));
   exhibits.push_back(candidate_exhibit(d));
@@ -297,7 +301,7 @@ std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, te
         "Fidelity <code>tiny</code>: specimens of a single unit, for tests of the program. The figures mean nothing.",
         "warning");
   return render_page({.title = title, .eyebrow = title, .heading = headline(d), .content = content},
-                     is_undecided(d) ? std::vector<Exhibit>{} : findings(d, fidelity));
+                     findings(d, fidelity));
 }
 
 }  // namespace nacre::report

@@ -77,6 +77,7 @@ std::string verdict_in_words(const std::string& verdict) {
   if (verdict == "base_sufficient") return "the base model is sufficient";
   if (verdict == "named") return "a cause is named";
   if (verdict == "ambiguous") return "several causes are possible, more tests are needed";
+  if (verdict == "insufficient") return "too little was measured to tell";
   if (verdict == "unexplained") return "something is wrong that no known effect explains";
   return verdict;
 }

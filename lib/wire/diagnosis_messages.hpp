@@ -111,7 +111,8 @@ struct NextExperiment {
 /// DIAGNOSIS: where the simulation is wrong, and which effect explains it.
 struct Diagnosis {
   using Wire = diagnosis_t;
-  static constexpr std::string_view kVerdicts[] = {"base_sufficient", "named", "ambiguous", "unexplained"};
+  static constexpr std::string_view kVerdicts[] = {"base_sufficient", "named", "ambiguous", "unexplained",
+                                                   "insufficient"};
   int round = 0;
   std::string verdict;
   std::string summary;  ///< in words, for a person

@@ -94,11 +94,11 @@ std::string diagnose_work(const std::string& spec) {
   try {
     return wire::write(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
   } catch (const InputError& error) {
-    return wire::write(message_of(diagnosis::undecided(error.what()), task.request.round));
+    return wire::write(message_of(diagnosis::insufficient(error.what()), task.request.round));
   } catch (const std::runtime_error& error) {
     // Measurements come from people: a fit that breaks on them must not end the game, which waits for the diagnosis.
     const std::string why = fmt::format("the diagnosis broke off: {}", error.what());
-    return wire::write(message_of(diagnosis::undecided(why), task.request.round));
+    return wire::write(message_of(diagnosis::insufficient(why), task.request.round));
   }
 }
 

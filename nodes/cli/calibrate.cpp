@@ -127,7 +127,9 @@ int calibrate(const Options& options) {
   settings.calibration.searches = options.searches;
   settings.calibration.ensemble_size = options.ensemble;
   settings.fidelity = fidelity_from_option(options.fidelity);
-  warn_all(offline::specimen_unit_doubts(set.specimens, settings.calibration.start, settings.fidelity).first);
+  warn_all(offline::specimen_unit_doubts(set.specimens, {settings.calibration.start, settings.calibration.start},
+                                         settings.fidelity)
+               .first);
   settings.hold_out = options.hold_out;
   settings.store = options.store;
   settings.calibration.floor =

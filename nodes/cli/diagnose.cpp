@@ -18,7 +18,6 @@
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "offline/diagnose.hpp"
-#include "offline/specimen_units.hpp"
 #include "output.hpp"
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
@@ -142,7 +141,6 @@ std::string_view plan_in_words(diagnosis::PlanStatus status) {
 void print_plan(const diagnosis::Plan& plan) {
   fmt::print("{} in {}; the effect sizes from which a cause is visible, and from which it can be named\n",
              counted(plan.specimens, "specimen"), counted(plan.groups, "group"));
-  if (plan.too_few) fmt::print("too few as they are: {}\n", in_words(*plan.too_few));
   constexpr const char* kLine = "  {:<34} {:<28} {:>12} {:>10} {:<24}  {}\n";
   fmt::print(kLine, "candidate effect", "status", "visible from", "named from", "unit",
              "most similar effect (collinearity)");
@@ -207,11 +205,11 @@ int diagnose(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
-  warn_all(offline::specimen_unit_doubts(set.specimens, settings.start, settings.fidelity).first);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::Diagnosis d = offline::diagnose_set(set, options.fracture, settings);
+  const auto [d, unit_doubts] = offline::diagnose_set(set, options.fracture, settings);
   progress.end();
+  warn_all(unit_doubts);
   if (!options.report.empty())
     write_file_atomically(options.report, report::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {

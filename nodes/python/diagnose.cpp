@@ -33,11 +33,11 @@ py::object diagnose(const py::object& folder, const py::object& params, const py
   const std::filesystem::path floor = discretisation_floor_file(discretisation_floor);
   settings.floor = diagnosis::read_modulus_floor(floor, settings.fidelity);
   settings.fracture_discretisation = diagnosis::read_fracture_discretisation(floor, settings.fidelity);
-  warn_of_units(set, settings.start, settings.fidelity);
-  const diagnosis::Diagnosis found = in_background(progress, [&](Watch& watch) {
+  const auto [found, unit_doubts] = in_background(progress, [&](Watch& watch) {
     settings.progress = [&](double share, std::string_view step) { watch.report(share, step); };
     return offline::diagnose_set(set, fracture, settings);
   });
+  for (const std::string& doubt : unit_doubts) warn(doubt);
   return python_of(offline::diagnosis_json(found, set.rejected));
 }
 

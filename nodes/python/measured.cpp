@@ -26,7 +26,8 @@ std::filesystem::path discretisation_floor_file(const py::object& file) {
 
 void warn_of_units(const measurement::MeasurementSet& set, const material::ParameterSet& model,
                    tester::Fidelity fidelity) {
-  for (const std::string& doubt : offline::specimen_unit_doubts(set.specimens, model, fidelity).first) warn(doubt);
+  for (const std::string& doubt : offline::specimen_unit_doubts(set.specimens, {model, model}, fidelity).first)
+    warn(doubt);
 }
 
 }  // namespace nacre::python

@@ -98,7 +98,7 @@ inline OpenedTrial run_trial(
     for (int i = 0; i < kReplicates; ++i) {
       std::string name = experiment.design.name() + "-" + std::string(tester::to_string(experiment.test)) +
                          (experiment.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
-      if (experiment.test == tester::TestKind::tensile)
+      if (experiment.conditions.strain_rate_per_s != tester::TestConditions{}.strain_rate_per_s)
         name += "-at-" + std::to_string(experiment.conditions.strain_rate_per_s);
       records.push_back(
           laboratory::record_specimen(trial.truth, experiment, response,

@@ -14,22 +14,22 @@ const VERDICTS: Record<string, string> = {
   named: "A missing effect is named",
   ambiguous: "Something is missing: these measurements cannot tell yet what",
   unexplained: "Something is missing that no known effect explains",
+  insufficient: "Too little was measured to tell",
 };
 
-/** Too few measurements for any verdict: nothing was considered. */
-const isUndecided = (d: Diagnosis) => d.verdict === "ambiguous" && d.candidates.length === 0;
+/** Nothing could be considered. */
+const nothingWasWeighed = (d: Diagnosis) => d.verdict === "insufficient" && d.candidates.length === 0;
 
 /** Nothing is missing by the diagnosis, and yet the calibration of the round does not fit. */
 const isDoubted = (d: Diagnosis) => d.verdict === "base_sufficient" && d.against !== "";
 
 function headline(d: Diagnosis): string {
-  if (isUndecided(d)) return "There are too few measurements for a diagnosis yet";
   if (isDoubted(d)) return "The diagnosis finds nothing missing, and yet the calibration does not fit";
   return VERDICTS[d.verdict] ?? words(d.verdict);
 }
 
 function noNextTest(d: Diagnosis): string {
-  if (isUndecided(d)) return "None is proposed before there are more measurements.";
+  if (nothingWasWeighed(d)) return "None is proposed before there are more measurements.";
   return d.verdict === "base_sufficient" ? "No further test is needed." : "No further test is proposed.";
 }
 

@@ -273,7 +273,7 @@ TEST(Analyser, DiagnosisIsPublishedAndKept) {
   analyser.finish("diagnose/r1", result);
   ASSERT_THAT(analyser.sent_on("DIAGNOSIS"), SizeIs(1));
   const auto diagnosis = wire::read<wire::Diagnosis>(analyser.sent_on("DIAGNOSIS").front().payload).value();
-  EXPECT_EQ(diagnosis.verdict, "ambiguous");
+  EXPECT_EQ(diagnosis.verdict, "insufficient");
   EXPECT_EQ(diagnosis.round, 1);
   EXPECT_EQ(analyser.computes.back().spec, store_spec("DIAGNOSIS", result));
 }

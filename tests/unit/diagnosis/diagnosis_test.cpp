@@ -406,37 +406,69 @@ TEST(Diagnosis, CouponsDoNotChangeTheReportedNoiseOfModuli) {
   EXPECT_DOUBLE_EQ(diagnosis.replicate_sd, 0.02);
 }
 
-// Four moduli fit six constants whatever is wrong with them.
-TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
+measurement::SpecimenRecord homogeneous(const std::string& name, double rigid_share, double modulus_pa) {
+  measurement::SpecimenRecord record;
+  record.specimen = name;
+  record.design = pattern::Mixture{rigid_share};
+  record.modulus_pa = modulus_pa;
+  return record;
+}
+
+// Three moduli fit three constants whatever is wrong with them.
+TEST(Diagnosis, ThreeModuliTellNothingOfAModel) {
+  const Diagnosis diagnosis =
+      diagnose({homogeneous("a", 0.0, 1e6), homogeneous("b", 0.5, 4e8), homogeneous("c", 1.0, 2e9)}, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "insufficient") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.finding.reason, Reason::nothing_visible);
+  EXPECT_FALSE(diagnosis.next_experiments.empty()) << "what would tell";
+}
+
+// Does the rate matter? Two rates with replicates answer that, either way.
+TEST(Diagnosis, TwoRatesTellWhetherTheRateMatters) {
+  for (const double faster : {1.0, 1.3}) {
+    RandomStream noise(11, "test/two rates");
+    std::vector<measurement::SpecimenRecord> specimens;
+    for (int i = 0; i < 8; ++i) {
+      specimens.push_back(
+          homogeneous(std::to_string(i), 1.0, 2e9 * (i < 4 ? 1.0 : faster) * std::exp(0.03 * noise.normal())));
+      specimens.back().conditions.strain_rate_per_s = i < 4 ? 1e-3 : 1e-1;
+    }
+    const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+    if (faster == 1.0) {
+      EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
+      continue;
+    }
+    ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+    EXPECT_EQ(material::find_effect(diagnosis.effects.front().name)->cause(), "rate_dependence");
+    EXPECT_GT(diagnosis.possible.size(), 1u) << "two rates leave its form open";
+  }
+}
+
+// No effect of the library depends on temperature: it is seen, and said to be unmodelled.
+TEST(Diagnosis, AConditionThatTheModelDoesNotKnowIsSeen) {
+  RandomStream noise(12, "test/temperature");
   std::vector<measurement::SpecimenRecord> specimens;
-  for (const double fraction : {0.0, 0.3, 0.5, 1.0}) {
-    measurement::SpecimenRecord record;
-    record.specimen = std::to_string(fraction);
-    record.design = pattern::Mixture{fraction};
-    record.modulus_pa = 1e8 * (1.0 + fraction);
-    specimens.push_back(record);
+  for (int i = 0; i < 12; ++i) {
+    const double temperature_c = 20.0 * (i / 4);
+    specimens.push_back(
+        homogeneous(std::to_string(i), 1.0, 2e9 * (1.0 - 0.005 * temperature_c) * std::exp(0.02 * noise.normal())));
+    specimens.back().other_columns["temperature_c"] = std::to_string(temperature_c);
   }
-  EXPECT_THROW(diagnose(specimens, tiny_settings()), TooFewSpecimens);
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  ASSERT_FALSE(diagnosis.contrasts.empty());
+  EXPECT_EQ(diagnosis.contrasts.front().name, "temperature");
+  EXPECT_TRUE(diagnosis.cautions.alike.empty());
+  for (int i = 0; i < 12; ++i) specimens[i].other_columns["machine"] = i < 8 ? "old" : "new";
+  for (int i = 4; i < 8; ++i) specimens[i].other_columns["temperature_c"] = "0";
+  EXPECT_EQ(diagnose(specimens, tiny_settings()).cautions.alike, std::vector<std::string>{"machine"});
 }
 
-TEST(CouponDiagnosis, ReplicatesCountOnce) {
-  auto specimens = synthetic_coupons(synthetic_truth(), {1e-3}, 3, 0.01, 5);
-  specimens.resize(9);
-  try {
-    diagnose(specimens, tiny_settings());
-    FAIL() << "three coupons are too few, however often each is pulled";
-  } catch (const TooFewSpecimens& problem) {
-    const std::string words = problem.what();
-    EXPECT_NE(words.find("(replicates count once)"), std::string::npos) << words;
-    EXPECT_TRUE(words.ends_with("there are 0 and 3")) << words;
-  }
-}
-
-TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
-  SyntheticSet set;
-  set.patterns = 3;
-  set.twins = 0;
-  EXPECT_THROW(diagnose(synthetic_specimens(set, synthetic_truth()), tiny_settings()), InputError);
+TEST(Diagnosis, NoSpecimenIsAnErrorWithASentence) {
+  EXPECT_THROW(diagnose({}, tiny_settings()), NothingMeasured);
+  measurement::SpecimenRecord failed = homogeneous("a", 1.0, 2e9);
+  failed.valid = false;
+  EXPECT_THROW(diagnose({failed}, tiny_settings()), NothingMeasured);
 }
 
 }  // namespace

@@ -83,6 +83,45 @@ TEST(Observations, CouponsThatWereUnloadedAreAGroupOfTheirOwn) {
   }
 }
 
+/// A modulus of a piece of rigid material at some rate.
+measurement::SpecimenRecord modulus_at(const std::string& piece, double rate_per_s, double modulus_pa) {
+  measurement::SpecimenRecord record;
+  record.specimen = piece + " at " + std::to_string(rate_per_s);
+  record.design = pattern::Mixture{1.0};
+  record.conditions.strain_rate_per_s = rate_per_s;
+  record.modulus_pa = modulus_pa;
+  record.other_columns["sample"] = piece;
+  return record;
+}
+
+// Pieces that differ by 20 % each, by 1 % from one rate to another: means go together, changes with the rate are sharp.
+TEST(Observations, GroupsOfTheSamePiecesGoTogether) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (int piece = 0; piece < 4; ++piece) {
+    const double level_pa = 1e9 * (1.0 + 0.2 * piece);
+    for (const double rate : {1e-3, 1e-2, 1e-1})
+      specimens.push_back(modulus_at(std::string(1, static_cast<char>('a' + piece)), rate,
+                                     level_pa * (rate > 5e-2 && piece % 2 ? 1.01 : 1.0)));
+  }
+  const Observations observations = observed(specimens);
+  ASSERT_EQ(observations.groups.size(), 3u);
+  const Eigen::MatrixXd covariance = observations.covariance();
+  EXPECT_GT(covariance(0, 1) / covariance(0, 0), 0.95);
+  const double of_change = covariance(0, 0) + covariance(1, 1) - 2.0 * covariance(0, 1);
+  EXPECT_LT(std::sqrt(of_change), 0.02);
+  EXPECT_GT(std::sqrt(covariance(0, 0)), 0.05);
+  for (measurement::SpecimenRecord& specimen : specimens) specimen.other_columns.clear();
+  EXPECT_EQ(observed(specimens).covariance()(0, 1), 0.0) << "other pieces";
+}
+
+TEST(Observations, TestsOfOnePieceCountOnce) {
+  const Observations observations =
+      observed({modulus_at("a", 1e-3, 1e9), modulus_at("a", 1.1e-3, 1.2e9), modulus_at("b", 1e-3, 1.1e9)});
+  ASSERT_EQ(observations.groups.size(), 1u);
+  EXPECT_EQ(observations.groups.front().replicates, 2);
+  EXPECT_NEAR(observations.values[0], (0.5 * (std::log(1e9) + std::log(1.2e9)) + std::log(1.1e9)) / 2.0, 1e-12);
+}
+
 /// Four coupons that were only pulled and `unloaded` that were pulled and unloaded, each stiffer or softer than their
 /// mean by 2 %, and nothing else.
 Observations pulled_and_unloaded(int unloaded) {

@@ -24,9 +24,10 @@ TEST(Words, EveryReasonHasASentenceOfItsOwn) {
                                      summary_of(decided_by(Verdict::named, two_effects)),
                                      summary_of(decided_by(Verdict::ambiguous, one_effect)),
                                      summary_of(decided_by(Verdict::ambiguous, other_material))};
-  for (const Reason reason : {no_effect_helps, residuals_stay, at_bound, weak_signal, contrast, condition, discrepancy})
+  for (const Reason reason :
+       {no_effect_helps, residuals_stay, at_bound, weak_signal, contrast, condition, discrepancy, worse_unseen})
     sentences.insert(summary_of(decided_by(Verdict::unexplained, reason)));
-  EXPECT_EQ(sentences.size(), 12u);
+  EXPECT_EQ(sentences.size(), 13u);
 }
 
 TEST(Words, ACautionIsSaidWhereItMatters) {

@@ -139,9 +139,9 @@ TEST(DiagnosisPage, BarsEndAtOneStandardErrorOfTheLogarithm) {
 }
 
 TEST(DiagnosisPage, TooFewDataClaimNothing) {
-  const std::string page = render_diagnosis_page(diagnosis::undecided("three groups of layouts have a valid test"),
+  const std::string page = render_diagnosis_page(diagnosis::insufficient("three groups of layouts have a valid test"),
                                                  "a-set", tester::Fidelity::full);
-  EXPECT_THAT(page, AllOf(HasSubstr("<h1>These data cannot tell yet</h1>"), HasSubstr("three groups of layouts")));
+  EXPECT_THAT(page, AllOf(HasSubstr("<h1>Too little was measured to tell</h1>"), HasSubstr("three groups of layouts")));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("Something is wrong")), Not(HasSubstr("<section")), Not(HasSubstr("<ul>")),
                           Not(HasSubstr("scatter by")), Not(HasSubstr("Procedure"))));
 }

@@ -1,0 +1,84 @@
+// Blind trials of tabulated moduli: homogeneous specimens of several blends at several rates, no layout and no curve.
+
+#include <gtest/gtest.h>
+
+#include "blind_trial.hpp"
+
+namespace nacre::blind {
+namespace {
+
+std::vector<laboratory::Experiment> moduli(const std::vector<double>& blends, const std::vector<double>& rates) {
+  std::vector<laboratory::Experiment> experiments;
+  for (const double fraction : blends) {
+    for (const double rate : rates) {
+      laboratory::Experiment experiment;
+      experiment.design = pattern::Mixture{fraction};
+      experiment.conditions.strain_rate_per_s = rate;
+      experiments.push_back(experiment);
+    }
+  }
+  return experiments;
+}
+
+std::vector<laboratory::Experiment> blends_at_four_rates(std::uint64_t) {
+  return moduli({0.0, 0.25, 0.5, 0.75, 1.0}, {1e-4, 1e-3, 1e-2, 1e-1});
+}
+
+std::string laboratory(int seed, const std::string& effect = "", const std::string& value = "") {
+  return laboratory_file(seed, "tiny", "modulus = 0.05\n", effect, value);
+}
+
+/// The interval of a parameter that is told by name holds the value.
+void expect_parameter(const nlohmann::json& effect, const std::string& name, double value) {
+  const nlohmann::json& parameter = effect["parameters"][name];
+  EXPECT_LE(parameter["interval90"][0].get<double>(), value) << name << effect.dump(1);
+  EXPECT_GE(parameter["interval90"][1].get<double>(), value) << name << effect.dump(1);
+}
+
+TEST(BlindHomogeneousTrials, APowerOfTheRateIsNamedWithItsExponents) {
+  const OpenedTrial trial = run_trial(laboratory(61, "rate_power_law", "[0.18, 0.2]"), blends_at_four_rates, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  const nlohmann::json& effect = trial.diagnosis["effects"][0];
+  EXPECT_EQ(effect["name"], "rate_dependence");
+  EXPECT_EQ(effect["form"], "power_law");
+  expect_parameter(effect, "soft_exponent", 0.18);
+  expect_parameter(effect, "rigid_exponent", 0.2 * 0.18);
+  expect_parameter(effect, "interface_exponent", 0.6 * 0.18);
+  EXPECT_GT(trial.diagnosis["gain"]["interval90"][0].get<double>(), 0.5);
+}
+
+TEST(BlindHomogeneousTrials, OneRelaxationTimeIsNamedAsThat) {
+  const OpenedTrial trial = run_trial(laboratory(62, "rate_dependence", "[0.6, 0.3]"), blends_at_four_rates, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  const nlohmann::json& effect = trial.diagnosis["effects"][0];
+  EXPECT_EQ(effect["name"], "rate_dependence");
+  EXPECT_EQ(effect["form"], "maxwell");
+  EXPECT_NEAR(effect["parameter"].get<double>(), 0.6, 0.15);
+}
+
+TEST(BlindHomogeneousTrials, BlendsOffTheMixtureLawAreNamed) {
+  const OpenedTrial trial = run_trial(laboratory(63, "blend_law", "0.4"), blends_at_four_rates, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "blend_law");
+  EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.4, 0.06);
+}
+
+TEST(BlindHomogeneousTrials, NothingIsNamedWhereNothingActs) {
+  for (int seed = 64; seed < 70; ++seed) {
+    const OpenedTrial trial = run_trial(laboratory(seed), blends_at_four_rates, "tiny");
+    EXPECT_EQ(trial.diagnosis["verdict"], "base_sufficient") << trial.diagnosis["summary"];
+  }
+}
+
+// Too few to tell, and what they do tell.
+TEST(BlindHomogeneousTrials, OneMaterialAtOneRateTellsNothingOfAModel) {
+  const OpenedTrial trial = run_trial(
+      laboratory(70), [](std::uint64_t) { return moduli({1.0}, {1e-3}); }, "tiny");
+  EXPECT_EQ(trial.diagnosis["verdict"], "insufficient") << trial.diagnosis["summary"];
+  ASSERT_EQ(trial.diagnosis["data"]["means"].size(), 1u);
+  EXPECT_EQ(trial.diagnosis["data"]["means"][0]["pieces"], kReplicates);
+  EXPECT_FALSE(trial.diagnosis["next_experiments"].empty());
+}
+
+}  // namespace
+}  // namespace nacre::blind
