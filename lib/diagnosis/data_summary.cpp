@@ -131,7 +131,7 @@ std::map<std::string, ConditionOf> conditions_of(const std::vector<SpecimenRecor
   return conditions;
 }
 
-/// One comparison along a condition: an abscissa for each reading that takes part.
+/// One comparison along a condition: an abscissa for each reading that is included.
 struct Comparison {
   std::string from, to;
   double span = 1.0;       ///< of the abscissa between them

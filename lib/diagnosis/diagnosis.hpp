@@ -69,8 +69,8 @@ struct NamedEffect {
   double parameter = 0.0;
   double interval_low = 0.0, interval_high = 0.0;
   std::string unit;
-  std::vector<FittedNumber> derived = {};  ///< Effect::derived, in its order (is_told())
   std::vector<FittedNumber> further = {};  ///< further parameters of the effect, in the order of material::Effect
+  std::vector<FittedNumber> derived = {};  ///< Effect::derived, in its order (is_told())
 };
 
 enum class CandidateStatus {

@@ -64,6 +64,7 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const FittedMode
     signature.changes = model.predict(map, points).colwise() - anchor.predicted;
     const std::vector<Eigen::VectorXd> others = other_values(map, points, own, sizes.size());
     if (!others.empty()) signature.elsewhere = model.predict(map, others).colwise() - anchor.predicted;
+    for (const Eigen::VectorXd& other : others) signature.at_elsewhere.push_back(other.tail(map.size() - own));
     signatures.push_back(std::move(signature));
   }
   return signatures;
@@ -78,18 +79,25 @@ Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations
   const Eigen::Index own = anchor.u.size();
   Eigen::VectorXd best = widened_start(anchor, map);
   double least = anchor.chi2;
-  const std::vector<double> sizes = signed_sizes(rules.sizes, signature.one_sided);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
+  const auto try_at = [&](const Eigen::VectorXd& change, const Eigen::VectorXd& effect) {
     FittedModel shifted = anchor;
-    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
+    shifted.predicted += change;
     Eigen::VectorXd step;
     const double chi2 = linear_refit(shifted, observations.values, whitener, &step);
-    if (chi2 >= least) continue;
+    if (chi2 >= least) return;
     least = chi2;
     best = widened_start(anchor, map);
     best.head(own) += step;
-    best[own] = sizes[i];
+    best.tail(map.size() - own) = effect;
+  };
+  const std::vector<double> sizes = signed_sizes(rules.sizes, signature.one_sided);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    Eigen::VectorXd effect = widened_start(anchor, map).tail(map.size() - own);
+    effect[0] = sizes[i];
+    try_at(signature.changes.col(static_cast<Eigen::Index>(i)), effect);
   }
+  for (std::size_t i = 0; i < signature.at_elsewhere.size(); ++i)
+    try_at(signature.elsewhere.col(static_cast<Eigen::Index>(i)), signature.at_elsewhere[i]);
   // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
   if (best[own] == 0.0) best[own] = rules.sizes.front();
   return best;

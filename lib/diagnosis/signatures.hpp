@@ -15,7 +15,8 @@ struct Signature {
   std::string effect;
   Eigen::MatrixXd changes;         ///< rows x sizes, the negative ones of a two-sided effect behind the positive
   Eigen::MatrixXd elsewhere = {};  ///< rows x values: at usual size, with other values of further parameters (a time)
-  bool one_sided = false;          ///< the parameter cannot be negative
+  std::vector<Eigen::VectorXd> at_elsewhere = {};  ///< the effect's own coordinates there
+  bool one_sided = false;                          ///< the parameter cannot be negative
 };
 
 /// Signatures of every effect on top of a fitted model, at these shares of its range.

@@ -62,14 +62,14 @@ struct Watched {
   }
 };
 
-std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1) {
+std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1, double modulus_pa = 1e9) {
   wire::Measurement m;
   m.fidelity = game::Scenario{}.fidelity;
   m.round = round;
   m.record.specimen = specimen;
   m.record.design = pattern::Pattern(bits);
   m.record.test = tester::TestKind::modulus;
-  m.record.modulus_pa = 1e9;
+  m.record.modulus_pa = modulus_pa;
   return wire::write(m);
 }
 
@@ -264,12 +264,12 @@ TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
 
 TEST(Analyser, DiagnosisIsPublishedAndKept) {
   Watched analyser;
-  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("MEASUREMENT", measurement_of("a", (std::uint64_t{1} << 55) - 1, 1, 2.6e9));  // all rigid
   analyser.receive("DIAGNOSE", request_of({"a"}));
   const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
                                     [](const auto& c) { return c.kind == "diagnose"; });
   ASSERT_NE(compute, analyser.computes.end());
-  const std::string result = diagnose_work(compute->spec);  // one specimen is too few: said, not thrown
+  const std::string result = diagnose_work(compute->spec);  // one specimen tells nothing: said, not thrown
   analyser.finish("diagnose/r1", result);
   ASSERT_THAT(analyser.sent_on("DIAGNOSIS"), SizeIs(1));
   const auto diagnosis = wire::read<wire::Diagnosis>(analyser.sent_on("DIAGNOSIS").front().payload).value();

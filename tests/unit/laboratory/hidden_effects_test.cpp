@@ -109,12 +109,14 @@ TEST(HiddenEffects, AtZeroAreNothing) {
 }
 
 TEST(HiddenEffects, AreSomethingAtEveryDrawnSize) {
+  const Making faster{.strain_rate_per_s = 6.17e-3};
   for (const EffectKind& kind : effect_kinds())
     for (const double value : {kind.drawn_minimum, kind.drawn_maximum}) {
       const Truth truth = with(kind, value);
       const bool shows = made(truth) != made(plain_truth()) ||
                          recorded(truth, TestKind::modulus) != recorded(plain_truth(), TestKind::modulus) ||
-                         recorded(truth, TestKind::toughness) != recorded(plain_truth(), TestKind::toughness);
+                         recorded(truth, TestKind::toughness) != recorded(plain_truth(), TestKind::toughness) ||
+                         homogeneous_modulus(truth, 0.7, faster) != homogeneous_modulus(plain_truth(), 0.7, faster);
       EXPECT_TRUE(shows) << kind.name << " " << value;
     }
 }

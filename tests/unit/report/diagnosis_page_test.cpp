@@ -146,6 +146,41 @@ TEST(DiagnosisPage, TooFewDataClaimNothing) {
                           Not(HasSubstr("scatter by")), Not(HasSubstr("Procedure"))));
 }
 
+diagnosis::MeasuredMean mean_at(double rate_per_s, double mean_pa) {
+  diagnosis::MeasuredMean mean{.design = "rigid", .pieces = 3, .mean_pa = mean_pa};
+  mean.conditions.strain_rate_per_s = rate_per_s;
+  mean.low_pa = 0.9 * mean_pa;
+  mean.high_pa = 1.1 * mean_pa;
+  mean.scatter = 0.06;
+  return mean;
+}
+
+TEST(DiagnosisPage, DataOfHomogeneousSpecimensComeFirst) {
+  Diagnosis d = named_with({});
+  d.data.means = {mean_at(1e-3, 2.0e9), mean_at(1e-1, 2.6e9)};
+  d.data.trends = {{.of = "rigid",
+                    .condition = "strain_rate_per_s",
+                    .from = "0.001",
+                    .to = "0.1",
+                    .pieces = 6,
+                    .ratio = 1.3,
+                    .low = 1.2,
+                    .high = 1.4,
+                    .chance = 0.0004,
+                    .exponent = 0.057,
+                    .exponent_low = 0.04,
+                    .exponent_high = 0.07}};
+  const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
+  const std::size_t data = page.find("<section id=\"data\">");
+  ASSERT_NE(data, std::string::npos);
+  EXPECT_LT(data, page.find("<section id=\"where\">"));
+  EXPECT_THAT(page, AllOf(HasSubstr("Modulus against strain rate"), HasSubstr("1800 … 2200"), HasSubstr("6.0 %"),
+                          HasSubstr("1.30"), HasSubstr("&lt; 0.001")));
+  d.data.means = {};
+  d.data.trends = {};
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full), Not(HasSubstr("id=\"data\"")));
+}
+
 TEST(DiagnosisPage, WhatAnEffectTakesBesideItsSizeHasItsInterval) {
   Diagnosis d = named_with({});
   d.effects = {{"rate_dependence", "rate", 0.5, 0.45, 0.55, "1", {{11.9, 9.7, 14.6}}}};
