@@ -16,24 +16,16 @@ bool holds(const std::vector<FittedModel>& fits, const std::string& effect) {
   });
 }
 
-/// The change between base and the joint fit; the signature of a typical size where the effect was not noticed.
-Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed, const Whitener& whitener) {
-  if (noticed) return evidence.singles[k].predicted - evidence.base.fit.predicted;
-  return usual_change(evidence.base.signatures[k], evidence.settings.procedure.fit.typical, evidence.base.fit,
-                      whitener);
-}
-
 /// The smallest parameter of effect k whose signature is visible in these data, beyond what the base imitates.
-std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, const Whitener& whitener) {
+std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, double usual_signal,
+                                    const Whitener& whitener) {
   const Procedure& rules = evidence.settings.procedure;
   const auto sizes = Eigen::seqN(0, static_cast<Eigen::Index>(rules.fit.sizes.size()));
   const Signature& signature = evidence.base.signatures[k];
   const Eigen::MatrixXd projected =
       projected_signatures(evidence.base.fit, signature.changes(Eigen::all, sizes), whitener);
   // Further parameters are where the effect shows most: it grows as it does at their usual values.
-  const Eigen::VectorXd most = usual_change(signature, rules.fit.typical, evidence.base.fit, whitener);
-  const double usual = projected.col(rules.fit.typical).norm(),
-               factor = usual > 1e-9 ? signature_size(evidence.base.fit, most, whitener).projected / usual : 1.0;
+  const double usual = projected.col(rules.fit.typical).norm(), factor = usual > 1e-9 ? usual_signal / usual : 1.0;
   std::vector<double> signals;
   for (const auto& column : projected.colwise()) signals.push_back(factor * column.norm());
   const auto strength = smallest_strength(rules.fit.sizes, signals, rules.names.visible_signal);
@@ -60,9 +52,16 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
   const Procedure& rules = evidence.settings.procedure;
   const Whitener whitener(evidence.observations.covariance());
   Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
-  for (std::size_t k = 0; k < evidence.effects.size(); ++k)
+  // The change between base and the joint fit; of a typical size where the effect was not noticed.
+  std::vector<SignatureSize> typical;
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
+    const Eigen::VectorXd usual =
+        usual_change(evidence.base.signatures[k], rules.fit.typical, evidence.base.fit, whitener);
+    typical.push_back(signature_size(evidence.base.fit, usual, whitener));
+    const bool noticed = evidence.p_family_wise[k] <= rules.levels.name;
     changes.col(static_cast<Eigen::Index>(k)) =
-        change_of(evidence, k, evidence.p_family_wise[k] <= rules.levels.name, whitener);
+        noticed ? Eigen::VectorXd(evidence.singles[k].predicted - evidence.base.fit.predicted) : usual;
+  }
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
   std::vector<CandidateEffect> candidates;
   for (const material::Effect& effect : material::effect_library()) {
@@ -75,13 +74,10 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     }
     const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
     const FittedModel& single = evidence.singles[k];
-    const SignatureSize typical = signature_size(
-        evidence.base.fit, usual_change(evidence.base.signatures[k], rules.fit.typical, evidence.base.fit, whitener),
-        whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;
     candidate.p_family_wise = evidence.p_family_wise[k];
     candidate.p_fit = evidence.p_fit[k];
-    candidate.absorption = typical.absorption();
+    candidate.absorption = typical[k].absorption();
     candidate.signal_to_noise = projected.col(static_cast<Eigen::Index>(k)).norm();
     candidate.parameter = single.parameters.extensions.at(candidate.name).front();
     for (std::size_t j = 0; j < evidence.effects.size(); ++j) {
@@ -93,9 +89,9 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
       if (cosine > candidate.rival_cosine)
         candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
     }
-    candidate.smallest_seen = smallest_seen(evidence, k, whitener);
+    candidate.smallest_seen = smallest_seen(evidence, k, typical[k].projected, whitener);
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
-    const bool visible = typical.projected >= rules.names.visible_signal;
+    const bool visible = typical[k].projected >= rules.names.visible_signal;
     const bool noticed = candidate.p_family_wise <= rules.levels.name;
     candidate.status = holds(decision.possible, candidate.name) ? CandidateStatus::in_set
                        : visible || noticed                     ? CandidateStatus::excluded

@@ -88,14 +88,12 @@ std::pair<Feature, tester::TestKind> shown_scatter(const Observations& observati
 
 /// Every effect at its usual size on top of the base.
 std::vector<FittedModel> usual_effects(const Evidence& evidence) {
+  const FitRules& rules = evidence.settings.procedure.fit;
   std::vector<FittedModel> models;
   for (const std::string& effect : evidence.effects) {
     const CoordinateMap map = evidence.model.map({{effect}});
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
-    u.head(map.base_count()) = evidence.base.fit.u;
-    u[map.base_count()] = std::min(evidence.settings.procedure.fit.sizes[evidence.settings.procedure.fit.typical],
-                                   map.upper(map.base_count()));
-    for (int i = map.base_count() + 1; i < map.size(); ++i) u[i] = map.usual(i);
+    Eigen::VectorXd u = widened_start(evidence.base.fit, map);
+    u[map.base_count()] = std::min(rules.sizes[rules.typical], map.upper(map.base_count()));
     models.push_back(linearised(evidence.model, {effect}, u));
   }
   return models;
