@@ -74,7 +74,7 @@ function(nacre_test name)
   target_link_libraries(${target} PRIVATE nacre_flags ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE NACRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                NACRE_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests UNITY_BUILD OFF)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${target})
   nacre_test_in_suite(${ARG_LABEL} ${name} ${ARG_TIMEOUT})
 endfunction()

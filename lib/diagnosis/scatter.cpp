@@ -72,7 +72,8 @@ void take_off_batches(std::vector<Deviation>& deviations) {
 /// Sets of batches that no group joins.
 std::vector<std::set<double>> joined_batches(const std::map<int, std::set<double>>& batches_of_group) {
   std::vector<std::set<double>> joined;
-  for (const auto& [group, batches] : batches_of_group) {
+  for (const auto& entry : batches_of_group) {
+    const std::set<double>& batches = entry.second;
     std::set<double> all = batches;
     std::erase_if(joined, [&](const std::set<double>& other) {
       const bool meets = std::ranges::any_of(other, [&](double batch) { return batches.contains(batch); });

@@ -34,7 +34,7 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
   CREATE TABLE breaks (key TEXT PRIMARY KEY, pairs BLOB NOT NULL) STRICT, WITHOUT ROWID;
 )sql";
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void refuse_cache(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
       "the simulation cache {} cannot be used: {}. `nacre rebuild --cache {}` saves what is sound. Nothing else "
       "depends on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations "
@@ -42,7 +42,7 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
       path.string(), reason, shell_word(path));
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const SQLite::Exception& error) {
+[[noreturn]] void refuse_cache(const std::filesystem::path& path, const SQLite::Exception& error) {
   constexpr int kPrimary = 0xff;  // of a code that may be extended
   switch (error.getErrorCode() & kPrimary) {
     case SQLITE_BUSY:
@@ -58,7 +58,7 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
                       "nothing that it holds is lost",
                       path.string(), error.what()));
     default:
-      refuse(path, error.what());
+      refuse_cache(path, error.what());
   }
 }
 
@@ -68,7 +68,7 @@ auto guarded(const std::filesystem::path& path, const Body& body) {
   try {
     return body();
   } catch (const SQLite::Exception& error) {
-    refuse(path, error);
+    refuse_cache(path, error);
   }
 }
 
@@ -106,8 +106,8 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& pat
     add_checksums(database);
     database.exec("PRAGMA user_version = " + std::to_string(kCacheSchemaVersion));
   } else if (version != kCacheSchemaVersion) {
-    refuse(path, "it has schema version " + std::to_string(version) + ", this program expects " +
-                     std::to_string(kCacheSchemaVersion));
+    refuse_cache(path, "it has schema version " + std::to_string(version) + ", this program expects " +
+                           std::to_string(kCacheSchemaVersion));
   }
   transaction.commit();
 }
@@ -154,7 +154,7 @@ SimulationCache::SimulationCache(const std::filesystem::path& path, int busy_tim
     database_->exec("PRAGMA synchronous = NORMAL");
     prepare_schema(*database_, path_);
     const std::string verdict = database_->execAndGet("PRAGMA quick_check(1)").getString();
-    if (verdict != "ok") refuse(path_, "it is damaged (" + verdict + ")");
+    if (verdict != "ok") refuse_cache(path_, "it is damaged (" + verdict + ")");
   });
 }
 
@@ -170,7 +170,7 @@ std::optional<CachedSimulation> SimulationCache::find(const std::string& key) co
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
     if (checksum_of_simulation(query) != query.getColumn(7).getInt64()) {
-      refuse(path_, fmt::format("it is damaged (the row {} does not fit its checksum)", key));
+      refuse_cache(path_, fmt::format("it is damaged (the row {} does not fit its checksum)", key));
     }
     CachedSimulation simulation;
     simulation.failure = query.getColumn(1).getString();
@@ -214,7 +214,7 @@ std::optional<std::vector<tester::Break>> SimulationCache::find_breaks(const std
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
     if (breaks_checksum(key, bytes_in(query.getColumn(0))) != query.getColumn(1).getInt64()) {
-      refuse(path_, fmt::format("it is damaged (the cracks of {} do not fit their checksum)", key));
+      refuse_cache(path_, fmt::format("it is damaged (the cracks of {} do not fit their checksum)", key));
     }
     const SQLite::Column pairs = query.getColumn(0);
     std::vector<PackedBreak> packed(static_cast<std::size_t>(pairs.getBytes()) / sizeof(PackedBreak));

@@ -24,7 +24,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
   std::string set;
   std::string start, ranges;
   std::string out;
@@ -107,7 +107,7 @@ void print_table(const sysid::OfflineCalibration& result, const material::Parame
   fmt::print("\n");
 }
 
-int calibrate(const Options& options) {
+int calibrate(const CalibrateOptions& options) {
   prepare_output_file(options.out, {options.set, options.ranges, options.discretisation_floor, options.store});
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
@@ -159,7 +159,7 @@ int calibrate(const Options& options) {
 }  // namespace
 
 void add_calibrate(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   CLI::App& command =
       add_command(app, action, "calibrate", "Fit the model's parameters to a measurement set", options, calibrate);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();

@@ -25,7 +25,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct DashboardOptions {
   std::vector<std::string> runs = {"logs/latest"};
   std::string host = "127.0.0.1";
   std::optional<int> port;
@@ -38,7 +38,7 @@ struct Options {
 /// Whether only this machine reaches the address.
 bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
 
-dashboard::DashboardSettings settings_of(const RunAccess& run, const Options& options) {
+dashboard::DashboardSettings settings_of(const RunAccess& run, const DashboardOptions& options) {
   return {.run_folder = run.folder,
           .family_folder = options.families.empty() ? run.folder / "families" : std::filesystem::path(options.families),
           .run_id = run.manifest.run_id,
@@ -58,7 +58,7 @@ std::string folder_name(const std::filesystem::path& folder) {
 /// The dashboards of the runs that can be read, and why the others cannot.
 class Shelf {
  public:
-  explicit Shelf(const Options& options) : options_(options) {
+  explicit Shelf(const DashboardOptions& options) : options_(options) {
     for (const std::string& folder : options.runs) {
       try {
         open(folder);
@@ -91,7 +91,7 @@ class Shelf {
     shown_.push_back({.name = name, .dashboard = &dashboards_.back()});
   }
 
-  const Options& options_;
+  const DashboardOptions& options_;
   std::deque<RunDesk> desks_;
   std::deque<dashboard::Dashboard> dashboards_;
   std::vector<dashboard::ShownRun> shown_;
@@ -100,7 +100,7 @@ class Shelf {
 /// Each run has its colour and its line of the legend.
 constexpr std::size_t kMostRuns = 8;
 
-int show_dashboard(const Options& options) {
+int show_dashboard(const DashboardOptions& options) {
   if (options.runs.size() > kMostRuns)
     throw InputError::format("nacre dashboard: {} runs, expected at most {}", options.runs.size(), kMostRuns);
   if (options.runs.size() > 1 && !options.families.empty())
@@ -125,7 +125,7 @@ int show_dashboard(const Options& options) {
 }  // namespace
 
 void add_dashboard(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DashboardOptions>();
   CLI::App& command =
       add_command(app, action, "dashboard", "Show runs in the browser, live or afterwards", options, show_dashboard);
   command.add_option("RUN,--run", options->runs, "Folder of the run; of several, up to 8, to compare them")

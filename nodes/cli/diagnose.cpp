@@ -28,7 +28,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
   std::string set;
   std::string parameters, ranges;
   std::string fidelity = "full";
@@ -88,7 +88,7 @@ void print_trends_and_next_tests(const diagnosis::Diagnosis& d) {
   }
 }
 
-int diagnose_table(const Options& options) {
+int diagnose_table(const DiagnoseOptions& options) {
   const auto [trends, rejected] =
       diagnosis::table_trends(options.table, options.measured, options.predicted, options.seed);
   for (const auto& row : rejected) warn_about_table(row, options.table);
@@ -104,7 +104,7 @@ int diagnose_table(const Options& options) {
   return 0;
 }
 
-diagnosis::DiagnosisSettings settings_from(const Options& options) {
+diagnosis::DiagnosisSettings settings_from(const DiagnoseOptions& options) {
   diagnosis::DiagnosisSettings settings;
   const material::StartingModel model = starting_model_from_options(options.parameters, options.ranges);
   settings.ranges = model.ranges;
@@ -159,7 +159,7 @@ void print_plan(const diagnosis::Plan& plan) {
   }
 }
 
-int plan(const Options& options) {
+int plan(const DiagnoseOptions& options) {
   if (options.set.empty())
     throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
   const measurement::MeasurementSet set = measurement::read_planned_set(options.set);
@@ -182,7 +182,7 @@ int plan(const Options& options) {
 }
 
 /// Throws InputError where options do not go together: none is left without effect.
-void check_usage(const Options& options) {
+void check_usage(const DiagnoseOptions& options) {
   const bool table = !options.table.empty();
   if (table && options.plan) throw InputError("nacre diagnose: expected either --plan or --table, not both");
   if (table && !options.set.empty())
@@ -193,7 +193,7 @@ void check_usage(const Options& options) {
     throw InputError("nacre diagnose --table: expected --measured and --predicted with the names of columns");
 }
 
-int diagnose(const Options& options) {
+int diagnose(const DiagnoseOptions& options) {
   check_usage(options);
   if (!options.report.empty())
     prepare_output_file(options.report,
@@ -225,7 +225,7 @@ int diagnose(const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiagnoseOptions>();
   CLI::App& command = add_command(app, action, "diagnose",
                                   "Show what the simulation gets wrong about measurements, and why", options, diagnose);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv (docs/FORMATS.md)");

@@ -20,7 +20,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct DoctorOptions {
   std::string logs = "logs";
   std::string run;
   std::string scenario;
@@ -45,7 +45,7 @@ std::string_view to_string(CheckStatus verdict) {
   return verdict == CheckStatus::good ? "good" : verdict == CheckStatus::remark ? "remark" : "fault";
 }
 
-std::vector<Finding> look_at_everything(const Options& options) {
+std::vector<Finding> look_at_everything(const DoctorOptions& options) {
   const game::Scenario scenario =
       options.scenario.empty() ? game::Scenario{} : game::read_scenario(scenario_file(options.scenario));
   const bool lan = scenario.hosts == "lan";
@@ -71,7 +71,7 @@ std::vector<Finding> look_at_everything(const Options& options) {
   return findings;
 }
 
-int examine(const Options& options) {
+int examine(const DoctorOptions& options) {
   const std::vector<Finding> findings = look_at_everything(options);
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
@@ -99,7 +99,7 @@ int examine(const Options& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DoctorOptions>();
   CLI::App& command =
       add_command(app, action, "doctor", "Check what usually keeps a game from running", options, examine);
   command.add_option("--logs", options->logs, "Folder where runs are kept")->capture_default_str();

@@ -22,7 +22,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct EchoOptions {
   std::string channel;
   std::string run = "logs/latest";
   std::string log;
@@ -97,7 +97,7 @@ std::optional<nlohmann::ordered_json> record_to_json(const runtime::LogRecord& r
   return line;
 }
 
-int echo_log(const Options& options) {
+int echo_log(const EchoOptions& options) {
   ForgivingReader reader(options.log);
   for (std::int64_t printed = 0; printed < options.count;) {
     const auto record = reader.next();
@@ -131,7 +131,7 @@ class Silence {
   bool is_over_ = false;
 };
 
-int echo_bus(const Options& options) {
+int echo_bus(const EchoOptions& options) {
   const RunAccess run = open_run(options.run);
   const auto is_wanted = [&](const std::string& channel) {
     return options.channel.empty() || channel == options.channel;
@@ -156,7 +156,7 @@ int echo_bus(const Options& options) {
   return 0;
 }
 
-int echo(const Options& options) {
+int echo(const EchoOptions& options) {
   if (!options.channel.empty() && wire::find_channel(options.channel) == nullptr) {
     std::string names;
     for (const wire::Channel& channel : wire::channels())
@@ -169,7 +169,7 @@ int echo(const Options& options) {
 }  // namespace
 
 void add_echo(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EchoOptions>();
   CLI::App& command =
       add_command(app, action, "echo", "Print the messages of a run, one JSON line each", options, echo);
   command.add_option("CHANNEL", options->channel, "Print this channel alone (lcmtypes/README.md)");

@@ -22,7 +22,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ExploreOptions {
   std::string params;
   std::string algorithm = "nsga2";
   int budget = 300;
@@ -37,7 +37,7 @@ struct Options {
   bool json = false;
 };
 
-void print_summary(const offline::Explored& explored, const Options& options) {
+void print_summary(const offline::Explored& explored, const ExploreOptions& options) {
   const nlohmann::ordered_json document = offline::to_json(explored, options.out);
   if (options.json) return print_json(document);
   fmt::print("{} simulated ({} failed), {} of them on the Pareto front, hypervolume {:.4f} GPa MPa; written to {}\n",
@@ -45,7 +45,7 @@ void print_summary(const offline::Explored& explored, const Options& options) {
              document["hypervolume_gpa_mpa"].get<double>(), options.out);
 }
 
-explore::SearchSettings search_settings(const Options& options) {
+explore::SearchSettings search_settings(const ExploreOptions& options) {
   explore::SearchSettings settings;
   settings.algorithm = options.algorithm;
   settings.budget = options.budget;
@@ -63,7 +63,7 @@ explore::SearchSettings search_settings(const Options& options) {
   return settings;
 }
 
-offline::ExploreSettings settings_from(const Options& options) {
+offline::ExploreSettings settings_from(const ExploreOptions& options) {
   offline::ExploreSettings settings;
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.parameters = parameters_from_option(options.params, material::default_parameters());
@@ -94,7 +94,7 @@ class SavedGamut {
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
 
-int explore_gamut(const Options& options) {
+int explore_gamut(const ExploreOptions& options) {
   const offline::ExploreSettings settings = settings_from(options);
   explore::make_search(settings.search);  // bad settings are refused before a folder is made
   prepare_output_file(options.out, {options.cache, options.params, options.former});
@@ -118,7 +118,7 @@ int explore_gamut(const Options& options) {
 }  // namespace
 
 void add_explore(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExploreOptions>();
   CLI::App& command = add_command(app, action, "explore", "Search for patterns that are stiff and tough, by simulation",
                                   options, explore_gamut);
   command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::string log = "logs/latest";
   bool mcap = false;
   bool csv = false;
@@ -102,7 +102,7 @@ void prepare_new_folder(const std::string& folder) {
   prepare_output_folder(folder);
 }
 
-int export_log(const Options& options) {
+int export_log(const ExportOptions& options) {
   if (options.mcap == options.csv) throw InputError("expected --mcap or --csv: which format is wanted");
   const fs::path log = log_file(options.log);
   LogMessages messages(log);
@@ -125,7 +125,7 @@ int export_log(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   CLI::App& command =
       add_command(app, action, "export", "Write the messages of a log for other programs", options, export_log);
   command.add_option("LOG", options->log, "A run's folder, its run.lcm or a node's journal.lcm")->capture_default_str();

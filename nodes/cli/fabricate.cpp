@@ -27,7 +27,7 @@ namespace {
 using fabricate::WantedSpecimens;
 using tester::TestKind;
 
-struct Options {
+struct FabricateOptions {
   std::vector<std::string> designs;
   std::string out;
   std::string test = "toughness";
@@ -70,7 +70,7 @@ void warn_about_constraints(const pattern::Design& design) {
 }
 
 /// How coupons are pulled; another programme than monotonic is for homogeneous ones alone.
-tester::Loading loading_of(const Options& options) {
+tester::Loading loading_of(const FabricateOptions& options) {
   const Result<tester::Loading> loading = tester::loading_from_string(options.loading);
   if (!loading) throw InputError::format("--loading: {}", loading.error().message);
   if (!loading->turns.empty() && options.test != "tensile")
@@ -78,7 +78,7 @@ tester::Loading loading_of(const Options& options) {
   return *loading;
 }
 
-std::vector<WantedSpecimens> wanted_by_name(const Options& options) {
+std::vector<WantedSpecimens> wanted_by_name(const FabricateOptions& options) {
   const tester::Loading loading = loading_of(options);
   std::vector<std::string> names = options.designs;
   if (options.coupons) names.insert(names.end(), std::begin(kCoupons), std::end(kCoupons));
@@ -151,7 +151,7 @@ std::string free_batch(const std::string& batch, const game::LaboratoryFacts& fa
   return name;
 }
 
-fabricate::JobRequest request_of(const Options& options) {
+fabricate::JobRequest request_of(const FabricateOptions& options) {
   fabricate::JobRequest request;
   request.name = options.batch.empty()
                      ? without_last_slash(std::filesystem::weakly_canonical(options.out)).filename().string()
@@ -185,7 +185,7 @@ void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenMo
              counted(job.trays, "tray"), folder);
 }
 
-int fabricate_job(const Options& options) {
+int fabricate_job(const FabricateOptions& options) {
   if (options.orders != options.designs.empty() && !options.coupons)
     throw InputError("nacre fabricate: expected designs to print, --coupons, or --orders for those of a game");
   if (options.orders && options.coupons) throw InputError("nacre fabricate: expected either --orders or --coupons");
@@ -219,7 +219,7 @@ int fabricate_job(const Options& options) {
 }  // namespace
 
 void add_fabricate(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FabricateOptions>();
   CLI::App& command =
       add_command(app, action, "fabricate", "Make print files: one picture per layer, build sheet, preview", options,
                   fabricate_job);

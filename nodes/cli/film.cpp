@@ -11,13 +11,13 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct FilmOptions {
   std::string film;
   std::string out;
   int width = 960;
 };
 
-int draw(const Options& options) {
+int draw(const FilmOptions& options) {
   const film::Film film = film::read_film(options.film);
   prepare_film_output(options.out);
   draw_film(film, options.out, std::filesystem::path(options.film).stem().string(), options.width);
@@ -27,7 +27,7 @@ int draw(const Options& options) {
 }  // namespace
 
 void add_film(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FilmOptions>();
   CLI::App& command =
       add_command(app, action, "film", "Draw a recorded fracture film as a GIF or as pictures", options, draw);
   command.add_option("FILM", options->film, "Film data, of `nacre simulate --frames` or of a run: RUN/films/*.film")

@@ -22,7 +22,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::vector<std::string> files;
   std::string sheet;
   std::string out;
@@ -66,7 +66,7 @@ nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
 }
 
 /// `set`: the folder that keeps the specimens; empty where none does.
-void print_import(const measurement::Import& import, const Options& options, const std::string& set) {
+void print_import(const measurement::Import& import, const ImportOptions& options, const std::string& set) {
   if (!options.json) {
     for (const auto& one : import.specimens) {
       fmt::print("{:16} {:20} E {:>9} GPa  T {:>8} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
@@ -118,7 +118,7 @@ nlohmann::ordered_json to_json(const measurement::ListedPart& part) {
 }
 
 /// What the files hold; 1 where one of them holds nothing.
-int list_exports(const Options& options) {
+int list_exports(const ImportOptions& options) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   bool all_read = true;
   for (const std::string& file : options.files) {
@@ -144,7 +144,7 @@ int list_exports(const Options& options) {
   return all_read ? 0 : 1;
 }
 
-void check(const Options& options) {
+void check(const ImportOptions& options) {
   if (options.sheet.empty()) throw InputError("--specimens is missing, expected the sheet (or --list FILE)");
   if (options.out.empty() && (options.preview.empty() || options.yes))
     throw InputError::format("--out is missing, expected the folder of the measurement set{}",
@@ -164,7 +164,7 @@ class Told {
 };
 
 /// Whether what the page shows is to be kept, as the person or `--yes` says; nothing where nobody can be asked.
-std::optional<bool> is_approved(const Options& options, std::size_t specimens) {
+std::optional<bool> is_approved(const ImportOptions& options, std::size_t specimens) {
   if (options.yes) return true;
   if (options.out.empty() || ::isatty(STDIN_FILENO) == 0) return std::nullopt;
   std::cerr << fmt::format("Import {} into {}? [y/N] ", counted(specimens, "specimen"), options.out) << std::flush;
@@ -173,7 +173,7 @@ std::optional<bool> is_approved(const Options& options, std::size_t specimens) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-int import_exports(const Options& options) {
+int import_exports(const ImportOptions& options) {
   if (options.list) {
     if (options.files.empty()) throw InputError("--list: expected one file or more");
     return list_exports(options);
@@ -206,7 +206,7 @@ int import_exports(const Options& options) {
 }  // namespace
 
 void add_import(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportOptions>();
   CLI::App& command = add_command(app, action, "import", "Turn exports of a testing machine into a measurement set",
                                   options, import_exports);
   command.add_option(

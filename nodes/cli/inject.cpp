@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Options {
+struct InjectOptions {
   std::string set;
   std::string run = "logs/latest";
   double timeout_s = 60.0;
@@ -112,7 +112,7 @@ Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, cons
 
 /// Sends a set and waits for the answers of those that listen.
 SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, const measurement::MeasurementSet& set,
-                 const Options& options) {
+                 const InjectOptions& options) {
   const auto endpoint = speak(run, "inject");
   SetDelivery delivery;
   delivery.rejected = set.rejected;
@@ -138,7 +138,7 @@ SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, cons
   return delivery;
 }
 
-int inject(const Options& options) {
+int inject(const InjectOptions& options) {
   const RunAccess run = open_run(options.run);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
@@ -155,7 +155,7 @@ int inject(const Options& options) {
 }  // namespace
 
 void add_inject(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InjectOptions>();
   CLI::App& command = add_command(app, action, "inject", "Hand measurements to a running game", options, inject);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   add_run_option(command, options->run);

@@ -13,12 +13,12 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ManualOptions {
   const CLI::App* app = nullptr;  ///< all commands
   std::string folder;
 };
 
-int write_manual(const Options& options) {
+int write_manual(const ManualOptions& options) {
   const CLI::App& app = *options.app;
   const std::filesystem::path folder(options.folder), pages = folder / "man" / "man1",
                                                       bash = folder / "bash-completion" / "completions",
@@ -37,7 +37,7 @@ int write_manual(const Options& options) {
 }  // namespace
 
 void add_manual(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ManualOptions>();
   options->app = &app;
   CLI::App& command =
       add_command(app, action, "manual", "Write manual pages, and completion of bash and zsh", options, write_manual);

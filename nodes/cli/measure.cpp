@@ -16,7 +16,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct MeasureOptions {
   std::vector<std::string> patterns;
   std::string laboratory;
   std::string out;
@@ -25,7 +25,7 @@ struct Options {
   bool json = false;
 };
 
-int measure(const Options& options) {
+int measure(const MeasureOptions& options) {
   laboratory::Campaign campaign;
   for (const std::string& argument : options.patterns) {
     campaign.designs.push_back(pattern::design_from_argument(argument));
@@ -53,7 +53,7 @@ int measure(const Options& options) {
 }  // namespace
 
 void add_measure(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MeasureOptions>();
   CLI::App& command =
       add_command(app, action, "measure", "Measure patterns in the virtual laboratory", options, measure);
   command.add_option("PATTERN", options->patterns, kDesignWords)->required();

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReplayOptions {
   std::string run = "logs/latest";
   std::string node;
   std::string scenario;
@@ -73,7 +73,7 @@ runtime::NodeProgram make_node(const std::string& node, const game::Scenario& sc
   return make_laboratory(scenario);
 }
 
-void print_report(const runtime::ReplayReport& report, const Options& options) {
+void print_report(const runtime::ReplayReport& report, const ReplayOptions& options) {
   if (options.json) {
     print_json({{"equal", report.equal},
                 {"inputs", report.inputs},
@@ -93,7 +93,7 @@ void print_report(const runtime::ReplayReport& report, const Options& options) {
 }
 
 /// The scenario to replay with. What differs under another one than the run's is no fault of the program: warns then.
-game::Scenario read_scenario(const fs::path& folder, const Options& options) {
+game::Scenario read_scenario(const fs::path& folder, const ReplayOptions& options) {
   const fs::path file = options.scenario.empty() ? folder / "scenario.toml" : fs::path(options.scenario);
   game::Scenario scenario = game::read_scenario(file);
   if (!fs::exists(folder / "manifest.json")) return scenario;
@@ -103,7 +103,7 @@ game::Scenario read_scenario(const fs::path& folder, const Options& options) {
   return scenario;
 }
 
-int replay(const Options& options) {
+int replay(const ReplayOptions& options) {
   const fs::path path = options.run;
   const bool is_bus_log = fs::is_regular_file(path);
   if (is_bus_log && path.filename() == "journal.lcm")
@@ -129,7 +129,7 @@ int replay(const Options& options) {
 }  // namespace
 
 void add_replay(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayOptions>();
   CLI::App& command = add_command(app, action, "replay",
                                   "Feed a recorded game to one node again, and compare what it sends", options, replay);
   command

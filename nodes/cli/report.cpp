@@ -19,13 +19,13 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string run = "logs/latest";
   std::string out;
   bool render = false;
 };
 
-int report(const Options& options) {
+int report(const ReportOptions& options) {
   const RunAccess run = open_run(options.run);
   for (const auto& round : runtime::read_rounds(run.folder)) remark(runtime::in_words(round));
   const std::filesystem::path database = run.folder / "run.db", page = run.folder / "report.html";
@@ -56,7 +56,7 @@ int report(const Options& options) {
 }  // namespace
 
 void add_report(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReportOptions>();
   CLI::App& command =
       add_command(app, action, "report", "Write the figures and tables of the thesis from a run: one page, SVG and CSV",
                   options, report);

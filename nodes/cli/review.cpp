@@ -25,7 +25,7 @@ namespace {
 using measurement::ReplicateGroup;
 using measurement::SpecimenRecord;
 
-struct Options {
+struct ReviewOptions {
   std::string specimen;
   std::string set;
   std::string run = "logs/latest";
@@ -72,7 +72,8 @@ ReviewedRun open_reviewed_run(const std::string& folder) {
 }
 
 /// Nothing, said on standard error, where another review of the specimen holds.
-std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in, const SpecimenReview& review) {
+std::optional<Reviewed> judge_in_run(const ReviewOptions& options, const ReviewedRun& in,
+                                     const SpecimenReview& review) {
   const auto& [run, book, revisions] = in;
   const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
@@ -101,7 +102,7 @@ std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& 
 }
 
 /// Writes the reviews into the table of the set; its curves and everything else stay as they are.
-std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<SpecimenReview>& reviews) {
+std::vector<Reviewed> judge_in_set(const ReviewOptions& options, const std::vector<SpecimenReview>& reviews) {
   std::vector<Reviewed> reviewed;
   measurement::SetTable table(options.set);
   for (const SpecimenReview& review : reviews) {
@@ -129,7 +130,7 @@ void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
 }
 
 /// The reviews that hold now.
-std::vector<Reviewed> judge_all(const Options& options, const std::vector<SpecimenReview>& reviews) {
+std::vector<Reviewed> judge_all(const ReviewOptions& options, const std::vector<SpecimenReview>& reviews) {
   if (reviews.empty()) return {};
   if (!options.set.empty()) return judge_in_set(options, reviews);
   const ReviewedRun run = open_reviewed_run(options.run);
@@ -141,7 +142,7 @@ std::vector<Reviewed> judge_all(const Options& options, const std::vector<Specim
 }
 
 /// Status 1 where another review of a specimen holds.
-int judge(const Options& options, const std::vector<SpecimenReview>& reviews) {
+int judge(const ReviewOptions& options, const std::vector<SpecimenReview>& reviews) {
   const std::vector<Reviewed> reviewed = judge_all(options, reviews);
   if (options.json) {
     print_reviewed_json(reviewed);
@@ -158,7 +159,7 @@ struct ReviewMaterial {
 };
 
 /// Those of the run, where nothing is rejected and the scenario says how many, or of the set.
-ReviewMaterial material_to_review(const Options& options) {
+ReviewMaterial material_to_review(const ReviewOptions& options) {
   ReviewMaterial material;
   if (options.set.empty()) {
     const game::LaboratoryFacts facts = view_laboratory(open_run(options.run)).facts;
@@ -272,7 +273,7 @@ void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<m
   }
 }
 
-int review(const Options& options) {
+int review(const ReviewOptions& options) {
   if (!options.set.empty() && options.revision > 0)
     throw InputError("nacre review: expected --revision in a run only: the reviews of a set are not numbered");
   if (!options.specimen.empty()) {
@@ -305,7 +306,7 @@ int review(const Options& options) {
 }  // namespace
 
 void add_review(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReviewOptions>();
   CLI::App& command =
       add_command(app, action, "review", "Show which replicates agree, or declare a measured specimen valid or not",
                   options, review);

@@ -15,7 +15,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct SelectOptions {
   std::string gamut;
   std::string measured;
   int count = 8;
@@ -50,7 +50,7 @@ std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Meas
   return "nothing to select: no sample of the gamut is better than the homogeneous mixtures and the measured designs";
 }
 
-int select_samples(const Options& options) {
+int select_samples(const SelectOptions& options) {
   const std::vector<explore::Evaluated> gamut = explore::read_gamut_csv(options.gamut);
   const MeasuredDesigns measured = read_measured(options.measured);
   const auto selected = select::select_designs(gamut, measured.patterns, measured.benchmark, {.count = options.count});
@@ -76,7 +76,7 @@ int select_samples(const Options& options) {
 }  // namespace
 
 void add_select(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SelectOptions>();
   CLI::App& command = add_command(app, action, "select", "Choose the samples of a gamut that are worth a measurement",
                                   options, select_samples);
   command.add_option("GAMUT", options->gamut, "gamut.csv, as nacre explore writes it")->required();

@@ -20,7 +20,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ShowOptions {
   std::string design;
   std::string out = "show";
   std::string fidelity = "full";
@@ -56,7 +56,7 @@ void run_tests(report::BrokenSpecimen& specimen, const tester::Simulation& simul
                         expect(reference_fracture, reference.design)};
 }
 
-int show(const Options& options) {
+int show(const ShowOptions& options) {
   const tester::Simulation simulation{
       design_to_show(options.design), material::default_parameters(), {}, fidelity_from_option(options.fidelity)};
   tester::Simulation reference = simulation;
@@ -86,7 +86,7 @@ int show(const Options& options) {
 }  // namespace
 
 void add_show(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShowOptions>();
   CLI::App& command =
       add_command(app, action, "show", "Break a published pattern: a film, and a page that explains it", options, show);
   command.add_option("DESIGN", options->design, std::string(kDesignWords) + "; default: the thesis' pattern A");

@@ -28,7 +28,7 @@ namespace {
 using offline::SimulatedDesign;
 using offline::SimulateSettings;
 
-struct Options {
+struct SimulateOptions {
   std::vector<std::string> patterns;
   std::string params;
   std::string test = "both";
@@ -58,7 +58,8 @@ std::vector<SimulatedDesign> read_designs(const std::vector<std::string>& argume
 }
 
 /// Pulls specimen 0 once more for its film, and writes what was asked for.
-void film_specimen(const SimulatedDesign& simulated, const tester::Simulation& simulation, const Options& options) {
+void film_specimen(const SimulatedDesign& simulated, const tester::Simulation& simulation,
+                   const SimulateOptions& options) {
   const Result<film::Film> film = film::record_film(simulation, *simulated.pulled.front(), options.frame_count);
   const std::string stem = file_stem(simulated.design.name());
   if (!film) throw InputError::format("{}: no film: {}", simulated.argument, film.error().message);
@@ -72,7 +73,8 @@ bool is_first(const SimulatedDesign& simulated, const std::vector<SimulatedDesig
 }
 
 /// Runs all tests, and films the specimens.
-void run_tests(std::vector<SimulatedDesign>& designs, const Options& options, const SimulateSettings& settings) {
+void run_tests(std::vector<SimulatedDesign>& designs, const SimulateOptions& options,
+               const SimulateSettings& settings) {
   const auto count = static_cast<std::int64_t>(designs.size());
   Progress progress("simulate: tests", count * settings.tests_of_a_design());
   offline::run_tests(designs, settings, [&] { progress.advance(); });
@@ -85,7 +87,7 @@ void run_tests(std::vector<SimulatedDesign>& designs, const Options& options, co
 }
 
 /// One curve a specimen: KEY.csv, of several KEY-0.csv, KEY-1.csv, ...
-void write_curves(const std::vector<SimulatedDesign>& designs, const Options& options) {
+void write_curves(const std::vector<SimulatedDesign>& designs, const SimulateOptions& options) {
   if (options.curves.empty()) return;
   for (const SimulatedDesign& simulated : designs)
     for (std::size_t i = 0; i < simulated.pulled.size(); ++i) {
@@ -98,7 +100,7 @@ void write_curves(const std::vector<SimulatedDesign>& designs, const Options& op
 }
 
 /// Before anything is computed: the specimens that were asked for exist.
-void check_specimen_options(const Options& options, const SimulateSettings& settings) {
+void check_specimen_options(const SimulateOptions& options, const SimulateSettings& settings) {
   if (options.choice.refine > 1 && options.wants_films())
     throw InputError("--frames and --film show unrefined elements: leave out --refine");
   if (settings.specimens() > 1 && !tester::specimens_differ(settings.parameters))
@@ -107,7 +109,7 @@ void check_specimen_options(const Options& options, const SimulateSettings& sett
 }
 
 /// Before anything is computed: a GIF shows one specimen, and the outputs can be written.
-void check_output_options(const Options& options) {
+void check_output_options(const SimulateOptions& options) {
   if ((options.wants_films() || !options.curves.empty()) && options.test == "modulus")
     throw InputError("--curves, --frames and --film show the toughness test: --test modulus does not run it");
   if (!options.curves.empty()) prepare_output_folder(options.curves);
@@ -119,7 +121,7 @@ void check_output_options(const Options& options) {
   prepare_film_output(options.film);
 }
 
-int simulate(const Options& options) {
+int simulate(const SimulateOptions& options) {
   std::vector<SimulatedDesign> designs = read_designs(options.patterns);
   const auto read = [&](const material::ParameterSet& start) { return parameters_from_option(options.params, start); };
   const SimulateSettings settings{
@@ -145,7 +147,7 @@ int simulate(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   CLI::App& command = add_command(app, action, "simulate",
                                   "Simulate the stiffness test and the toughness test of patterns", options, simulate);
   command.add_option("PATTERN", options->patterns, kDesignWords)->required();

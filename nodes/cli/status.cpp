@@ -19,7 +19,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct StatusOptions {
   std::string run = "logs/latest";
   double seconds = 1.5;
   bool json = false;
@@ -76,7 +76,7 @@ void print_table(const RunAccess& run, const Statuses& statuses) {
   }
 }
 
-int show_status(const Options& options) {
+int show_status(const StatusOptions& options) {
   const RunAccess run = open_run(options.run);
   const Statuses statuses = collect(run, options.seconds);
   if (options.json) {
@@ -97,7 +97,7 @@ int show_status(const Options& options) {
 }  // namespace
 
 void add_status(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StatusOptions>();
   CLI::App& command =
       add_command(app, action, "status", "Show what the nodes of a run are doing", options, show_status);
   add_run_option(command, options->run);

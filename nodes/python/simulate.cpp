@@ -68,16 +68,16 @@ std::vector<Tested> tested(std::vector<SimulatedDesign> designs, const SimulateS
   return results;
 }
 
-py::object python_of(const Tested& each, const SimulateSettings& settings) {
-  const py::dict entry = python::python_of(to_json(each.simulated, settings));
+py::object entry_of(const Tested& each, const SimulateSettings& settings) {
+  const py::dict entry = python_of(to_json(each.simulated, settings));
   if (entry.contains("error")) return entry;
   py::list curves;
   for (const Result<tester::ToughnessResult>& pulled : each.simulated.pulled)
-    curves.append(python::python_of(pulled->curve));
+    curves.append(python_of(pulled->curve));
   entry["curves"] = curves;
   if (each.film && !*each.film)
     throw InputError::format("{}: no film: {}", each.simulated.argument, each.film->error().message);
-  if (each.film) entry["film"] = python::python_of(**each.film);
+  if (each.film) entry["film"] = python_of(**each.film);
   return entry;
 }
 
@@ -93,7 +93,7 @@ py::object simulate(const py::object& patterns, const py::object& params, const 
   const std::vector<Tested> results = in_background(
       progress, [&](Watch& watch) { return tested(std::move(designs), settings, given.frame_count, watch); });
   py::list entries;
-  for (const Tested& each : results) entries.append(python_of(each, settings));
+  for (const Tested& each : results) entries.append(entry_of(each, settings));
   if (!asked.is_single) return entries;
   if (const std::string failure = results.front().simulated.failure(); !failure.empty())
     throw std::runtime_error(fmt::format("{}: {}", results.front().simulated.argument, failure));

@@ -9,29 +9,31 @@
 namespace nacre::crack {
 namespace {
 
-Mechanisms drawn(const std::vector<std::string>& lines) {
+Mechanisms mechanisms_of(const std::vector<std::string>& lines) {
   const Drawing drawing = draw(lines);
   return mechanisms_of(drawing.grid, crack_record(drawing.grid, drawing.order));
 }
 
 TEST(Mechanisms, AStraightCrackThroughRigidMaterialShowsNone) {
-  const Mechanisms none = drawn({"..........", "ooxxxxxxxx", ".........."});
+  const Mechanisms none = mechanisms_of({"..........", "ooxxxxxxxx", ".........."});
   for (const double value : values_of(none)) EXPECT_NEAR(value, 0.0, 1e-12);
-  for (const double value : values_of(drawn({"....", "oo..", "...."}))) EXPECT_EQ(value, 0.0) << "nothing failed";
+  for (const double value : values_of(mechanisms_of({"....", "oo..", "...."})))
+    EXPECT_EQ(value, 0.0) << "nothing failed";
 }
 
 TEST(Mechanisms, ADetourIsDeflection) {
-  const Mechanisms detour = drawn({"...xxx....", "..x...x...", "oo.....xxx"});
+  const Mechanisms detour = mechanisms_of({"...xxx....", "..x...x...", "oo.....xxx"});
   EXPECT_GT(detour.deflection, 0.05);
-  EXPECT_NEAR(detour.deflection, drawn({"oo.....xxx", "..x...x...", "...xxx...."}).deflection, 1e-12) << "up or down";
+  EXPECT_NEAR(detour.deflection, mechanisms_of({"oo.....xxx", "..x...x...", "...xxx...."}).deflection, 1e-12)
+      << "up or down";
 }
 
 TEST(Mechanisms, StandingElementsInThePathAreBridges) {
-  EXPECT_NEAR(drawn({"..........", "ooxx..xxxx", ".........."}).bridging, 2.0 / 8, 1e-9);
+  EXPECT_NEAR(mechanisms_of({"..........", "ooxx..xxxx", ".........."}).bridging, 2.0 / 8, 1e-9);
 }
 
 TEST(Mechanisms, ACrackBesideThePathIsBranching) {
-  EXPECT_EQ(drawn({"....xxxxx.", "..........", "..........", "ooxxxxxxxx", ".........."}).branching, 1.0);
+  EXPECT_EQ(mechanisms_of({"....xxxxx.", "..........", "..........", "ooxxxxxxxx", ".........."}).branching, 1.0);
 }
 
 TEST(Mechanisms, WaitingInFrontOfSoftMaterialIsArrest) {
@@ -55,7 +57,7 @@ TEST(Mechanisms, SoftMaterialAtTheNotchThatFailsLastIsArrestToo) {
 }
 
 TEST(Mechanisms, APathThatSeeksWeakElementsIsGuided) {
-  EXPECT_GT(drawn({"..........", "ooxxsssiii", ".........."}).guidance, 0.5);
+  EXPECT_GT(mechanisms_of({"..........", "ooxxsssiii", ".........."}).guidance, 0.5);
   Drawing shunning = draw({"ssssssssss", "ooxxxxxxxx", ".........."});
   std::erase_if(shunning.order, [](const tester::Break& broken) { return broken.element >= 20; });
   EXPECT_LT(mechanisms_of(shunning.grid, crack_record(shunning.grid, shunning.order)).guidance, -0.3);

@@ -17,27 +17,27 @@ using ::testing::HasSubstr;
 /// Model-based ones are tested with smaller budgets in model_search_test.cpp.
 const std::vector<std::string> kQuickAlgorithms = {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"};
 
-SearchSettings settings(const std::string& algorithm, std::uint64_t seed, int budget = 200) {
+SearchSettings short_search(const std::string& algorithm, std::uint64_t seed, int budget = 200) {
   return {.algorithm = algorithm, .budget = budget, .population = 20, .batch = 10, .seed = seed, .known = {}};
 }
 
-double hypervolume_of(const std::vector<Evaluated>& samples) {
+double volume_of(const std::vector<Evaluated>& samples) {
   std::vector<optimize::Performance> performances;
   for (const Evaluated& sample : samples) performances.push_back(sample.performance);
   return optimize::hypervolume_staircase_gpa_mpa(performances);
 }
 
 double hypervolume_after(const std::string& algorithm, std::uint64_t seed, int budget) {
-  const auto search = make_search(settings(algorithm, seed, budget));
+  const auto search = make_search(short_search(algorithm, seed, budget));
   run(*search);
-  return hypervolume_of(search->evaluated());
+  return volume_of(search->evaluated());
 }
 
 class EverySearch : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySearch, SpendsItsBudgetOnDifferentFeasiblePatterns) {
   for (const int budget : {1, 15, 203}) {
-    const auto search = make_search(settings(GetParam(), 1, budget));
+    const auto search = make_search(short_search(GetParam(), 1, budget));
     std::set<pattern::Pattern> asked;
     for (const auto& batch : run(*search)) {
       EXPECT_LE(batch.size(), 10u);
@@ -53,22 +53,22 @@ TEST_P(EverySearch, SpendsItsBudgetOnDifferentFeasiblePatterns) {
 }
 
 TEST_P(EverySearch, EqualSeedsGiveEqualSequencesAndOtherSeedsOthers) {
-  const auto a = make_search(settings(GetParam(), 5)), b = make_search(settings(GetParam(), 5)),
-             c = make_search(settings(GetParam(), 6));
+  const auto a = make_search(short_search(GetParam(), 5)), b = make_search(short_search(GetParam(), 5)),
+             c = make_search(short_search(GetParam(), 6));
   const auto batches = run(*a);
   EXPECT_EQ(batches, run(*b));
   EXPECT_NE(batches, run(*c));
 }
 
 TEST_P(EverySearch, BeginsWithTheSamePatternsAsEveryOther) {
-  const auto search = make_search(settings(GetParam(), 7)), random = make_search(settings("random", 7));
+  const auto search = make_search(short_search(GetParam(), 7)), random = make_search(short_search("random", 7));
   const auto batches = run(*search), others = run(*random);
   EXPECT_EQ(batches[0], others[0]);
   EXPECT_EQ(batches[1], others[1]);
 }
 
 TEST_P(EverySearch, FailedSimulationsCountAndAreNotAskedAgain) {
-  const auto search = make_search(settings(GetParam(), 2, 150));
+  const auto search = make_search(short_search(GetParam(), 2, 150));
   const auto fails = [](const pattern::Pattern& pattern) { return pattern.bits() % 3 == 0; };
   std::set<pattern::Pattern> asked;
   std::size_t failures = 0;
@@ -85,7 +85,7 @@ TEST_P(EverySearch, FailedSimulationsCountAndAreNotAskedAgain) {
 }
 
 TEST_P(EverySearch, SurvivesWhenEverySimulationFails) {
-  const auto search = make_search(settings(GetParam(), 2, 60));
+  const auto search = make_search(short_search(GetParam(), 2, 60));
   std::size_t asked = 0;
   for (const auto& batch : run(*search, [](const pattern::Pattern&) { return true; })) asked += batch.size();
   EXPECT_EQ(asked, 60u);
@@ -93,9 +93,9 @@ TEST_P(EverySearch, SurvivesWhenEverySimulationFails) {
 }
 
 TEST_P(EverySearch, KnownPatternsComeFirstAndAreNotAskedFor) {
-  const auto earlier = make_search(settings(GetParam(), 3, 50));
+  const auto earlier = make_search(short_search(GetParam(), 3, 50));
   run(*earlier);
-  SearchSettings resumed = settings(GetParam(), 3, 40);
+  SearchSettings resumed = short_search(GetParam(), 3, 40);
   resumed.known = earlier->evaluated();
   resumed.known.push_back(resumed.known.front());  // a repetition changes nothing
   const auto search = make_search(resumed);
@@ -112,9 +112,9 @@ TEST_P(EverySearch, KnownPatternsComeFirstAndAreNotAskedFor) {
 }
 
 TEST_P(EverySearch, GoesOnWhereHalfOfItsStartIsKnown) {
-  const auto earlier = make_search(settings(GetParam(), 3, 10));
+  const auto earlier = make_search(short_search(GetParam(), 3, 10));
   run(*earlier);
-  SearchSettings resumed = settings(GetParam(), 3, 40);
+  SearchSettings resumed = short_search(GetParam(), 3, 40);
   resumed.known = earlier->evaluated();
   const auto search = make_search(resumed);
   run(*search);
@@ -122,7 +122,7 @@ TEST_P(EverySearch, GoesOnWhereHalfOfItsStartIsKnown) {
 }
 
 TEST_P(EverySearch, MisuseIsOurBugAndIsAsserted) {
-  const auto search = make_search(settings(GetParam(), 1));
+  const auto search = make_search(short_search(GetParam(), 1));
   const std::vector<std::optional<optimize::Performance>> one(1);
   EXPECT_DEATH(search->tell(one), "tell\\(\\) without a batch");
   EXPECT_EQ(search->ask().size(), 10u);
@@ -151,12 +151,12 @@ TEST(Evolution, EnclosesMoreThanRandomSearchAtEqualBudget) {
 }
 
 TEST(Evolution, NeverLosesTheBestItHasFound) {
-  const auto search = make_search(settings("nsga2", 4, 400));
+  const auto search = make_search(short_search("nsga2", 4, 400));
   run(*search);
   double previous = 0.0;
   for (std::size_t count = 20; count <= 400; count += 20) {
     const auto& all = search->evaluated();
-    const double volume = hypervolume_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)});
+    const double volume = volume_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)});
     EXPECT_GE(volume, previous);
     previous = volume;
   }
@@ -164,7 +164,7 @@ TEST(Evolution, NeverLosesTheBestItHasFound) {
 
 TEST(Evolution, RollBackEndsEarlyWhenAllNeighboursAreSeen) {
   // A population of two that no newcomer can better: the neighbourhoods of its members are soon used up.
-  SearchSettings stuck = settings("nsga2-rollback", 1, 5000);
+  SearchSettings stuck = short_search("nsga2-rollback", 1, 5000);
   stuck.population = 2;
   const auto search = make_search(stuck);
   int told = 0;
@@ -204,16 +204,17 @@ TEST(MakeSearch, RefusesWhatItDoesNotKnow) {
     }
     return "no error";
   };
-  EXPECT_THAT(message(settings("annealing", 1)), HasSubstr("\"annealing\", expected one of nsga2, nsga2-single-pixel"));
-  SearchSettings bad = settings("nsga2", 1);
+  EXPECT_THAT(message(short_search("annealing", 1)),
+              HasSubstr("\"annealing\", expected one of nsga2, nsga2-single-pixel"));
+  SearchSettings bad = short_search("nsga2", 1);
   bad.population = 1;
   EXPECT_THAT(message(bad), HasSubstr("population = 1, expected at least 2"));
-  bad = settings("learned", 1);
+  bad = short_search("learned", 1);
   bad.learned.choice = "lottery";
   EXPECT_THAT(message(bad), HasSubstr("choice = lottery, expected improvement or rank"));
-  bad = settings("nsga2", 1, 0);
+  bad = short_search("nsga2", 1, 0);
   EXPECT_THAT(message(bad), HasSubstr("budget = 0"));
-  bad = settings("nsga2", 1);
+  bad = short_search("nsga2", 1);
   bad.batch = 0;
   EXPECT_THAT(message(bad), HasSubstr("batch = 0"));
 }

@@ -10,11 +10,11 @@
 namespace nacre::laboratory {
 namespace {
 
-constexpr double kYoungPa = 0.5e9, kPoisson = 0.35;
+constexpr double kSheetYoungPa = 0.5e9, kSheetPoisson = 0.35;
 
 /// A strip of one material without notch.
 Raster strip(int columns, int rows, double threshold_j_per_m3 = std::numeric_limits<double>::infinity()) {
-  const material::Lame lame = material::lame_from_engineering(kYoungPa, kPoisson);
+  const material::Lame lame = material::lame_from_engineering(kSheetYoungPa, kSheetPoisson);
   const auto count = static_cast<std::size_t>(columns * rows);
   return {.columns = columns,
           .rows = rows,
@@ -27,7 +27,7 @@ Raster strip(int columns, int rows, double threshold_j_per_m3 = std::numeric_lim
 Pull calm_pull(double strain_limit) { return {.gamma_per_s = 1e6, .strain_limit = strain_limit}; }
 
 TEST(ModulusBench, AHomogeneousStripHasTheModulusOfItsMaterial) {
-  EXPECT_NEAR(pull_elastically(strip(24, 16)).value() / kYoungPa, 1.0, 1e-10);
+  EXPECT_NEAR(pull_elastically(strip(24, 16)).value() / kSheetYoungPa, 1.0, 1e-10);
 }
 
 TEST(ModulusBench, LayersAcrossTheLoadLieBetweenTheirSeriesBoundsAndColumnsAlongItGiveTheirMean) {
@@ -40,8 +40,8 @@ TEST(ModulusBench, LayersAcrossTheLoadLieBetweenTheirSeriesBoundsAndColumnsAlong
     }
   }
   // Equal Poisson ratios: columns stretch and contract alike, so that the mean is exact.
-  EXPECT_NEAR(pull_elastically(columns).value() / (0.55 * kYoungPa), 1.0, 1e-9);
-  const double series = 1.0 / (0.5 / kYoungPa + 0.5 / (0.1 * kYoungPa));
+  EXPECT_NEAR(pull_elastically(columns).value() / (0.55 * kSheetYoungPa), 1.0, 1e-9);
+  const double series = 1.0 / (0.5 / kSheetYoungPa + 0.5 / (0.1 * kSheetYoungPa));
   const double layered = pull_elastically(layers).value();
   EXPECT_GT(layered, series * (1.0 - 1e-9));
   EXPECT_LT(layered, 1.1 * series);
@@ -57,7 +57,7 @@ TEST(FractureBench, AStripThatCannotBreakFollowsTheUniaxialClosedForm) {
   const Result<PulledSpecimen> pulled = pull_to_separation(strip(32, 24), calm_pull(0.08));
   ASSERT_TRUE(pulled.has_value()) << pulled.error().message;
   EXPECT_FALSE(pulled->separated);
-  const material::Lame lame = material::lame_from_engineering(kYoungPa, kPoisson);
+  const material::Lame lame = material::lame_from_engineering(kSheetYoungPa, kSheetPoisson);
   for (std::size_t i = 1; i < pulled->curve.size(); ++i) {
     const double strain = pulled->curve.strain[i];
     if (strain < 0.005) continue;  // start-up ringing of the lateral contraction
@@ -67,7 +67,7 @@ TEST(FractureBench, AStripThatCannotBreakFollowsTheUniaxialClosedForm) {
 }
 
 TEST(FractureBench, AStripBreaksWhereItsEnergyDensityReachesTheThreshold) {
-  const double threshold = 1e6, strain = std::sqrt(2.0 * threshold / kYoungPa);  // W = E e^2 / 2 at small strain
+  const double threshold = 1e6, strain = std::sqrt(2.0 * threshold / kSheetYoungPa);  // W = E e^2 / 2 at small strain
   const Result<PulledSpecimen> pulled = pull_to_separation(strip(32, 24, threshold), calm_pull(0.3));
   ASSERT_TRUE(pulled.has_value()) << pulled.error().message;
   EXPECT_TRUE(pulled->separated);

@@ -39,14 +39,14 @@ pattern::Design some_pattern() {
   return pattern::random_pattern(random);
 }
 
-Truth plain_truth() {
+Truth unaffected_truth() {
   Truth truth = draw_truth(33, tester::Fidelity::tiny);
   truth.effects = {};
   return truth;
 }
 
 Truth with(const EffectKind& kind, double value) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   truth.effects.*kind.value = value;
   if (kind.second.value != nullptr) truth.effects.*kind.second.value = kind.second.drawn_minimum;
   return truth;
@@ -84,7 +84,7 @@ measurement::SpecimenRecord recorded(const Truth& truth, TestKind test) {
 
 // `nacre measure` counts its batches from 1, a game from its round 0.
 TEST(HiddenEffects, BatchesDriftFromTheFirstOne) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   truth.effects.batch_drift = 0.1;
   const auto modulus = [&](const std::string& batch) {
     return *record_specimen(truth, {.design = some_pattern(), .fidelity = truth.fidelity},
@@ -100,11 +100,11 @@ TEST(HiddenEffects, BatchesDriftFromTheFirstOne) {
 }
 
 TEST(HiddenEffects, AtZeroAreNothing) {
-  const std::string base = made(plain_truth());
+  const std::string base = made(unaffected_truth());
   for (const EffectKind& kind : effect_kinds()) {
     EXPECT_EQ(made(with(kind, 0.0)), base) << kind.name;
     for (const TestKind test : {TestKind::modulus, TestKind::toughness})
-      EXPECT_EQ(recorded(with(kind, 0.0), test), recorded(plain_truth(), test)) << kind.name;
+      EXPECT_EQ(recorded(with(kind, 0.0), test), recorded(unaffected_truth(), test)) << kind.name;
   }
 }
 
@@ -113,10 +113,11 @@ TEST(HiddenEffects, AreSomethingAtEveryDrawnSize) {
   for (const EffectKind& kind : effect_kinds())
     for (const double value : {kind.drawn_minimum, kind.drawn_maximum}) {
       const Truth truth = with(kind, value);
-      const bool shows = made(truth) != made(plain_truth()) ||
-                         recorded(truth, TestKind::modulus) != recorded(plain_truth(), TestKind::modulus) ||
-                         recorded(truth, TestKind::toughness) != recorded(plain_truth(), TestKind::toughness) ||
-                         homogeneous_modulus(truth, 0.7, faster) != homogeneous_modulus(plain_truth(), 0.7, faster);
+      const bool shows =
+          made(truth) != made(unaffected_truth()) ||
+          recorded(truth, TestKind::modulus) != recorded(unaffected_truth(), TestKind::modulus) ||
+          recorded(truth, TestKind::toughness) != recorded(unaffected_truth(), TestKind::toughness) ||
+          homogeneous_modulus(truth, 0.7, faster) != homogeneous_modulus(unaffected_truth(), 0.7, faster);
       EXPECT_TRUE(shows) << kind.name << " " << value;
     }
 }
@@ -241,7 +242,7 @@ TEST(HiddenLaw, AShrunkStripComesToRestAndPullsAsBefore) {
 }
 
 TEST(HiddenCoupons, AreUnloadedAsOrdered) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   Experiment experiment{.design = pattern::Mixture{1.0},
                         .test = tester::TestKind::tensile,
                         .conditions = {},
@@ -263,7 +264,7 @@ TEST(HiddenCoupons, AreUnloadedAsOrdered) {
 }
 
 TEST(HiddenCoupons, YieldStiffenAndRelaxAsTheSimulatorsDo) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   const auto differs = [&](double rigid_fraction, double strain, const material::Extensions& extensions) {
     const tester::Curve curve = coupon_curve(truth, rigid_fraction, {}, tester::strain_path({{strain}}, strain / 49.0));
     tester::Simulation simulation{.design = pattern::Mixture{rigid_fraction},
@@ -292,17 +293,17 @@ TEST(HiddenCoupons, YieldStiffenAndRelaxAsTheSimulatorsDo) {
 }
 
 TEST(RateDependence, StiffensTheModulusAsTheSimulatorDoes) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   truth.effects.rate_overstress = 0.5;
   truth.effects.rate_relaxation_s = 8.0;
-  const double plain = homogeneous_modulus(plain_truth(), 1.0), slow = homogeneous_modulus(truth, 1.0),
+  const double plain = homogeneous_modulus(unaffected_truth(), 1.0), slow = homogeneous_modulus(truth, 1.0),
                fast = homogeneous_modulus(truth, 1.0, {.strain_rate_per_s = 10.0});
   EXPECT_NEAR(slow / plain, material::rate_stiffening({.overstress = 0.5, .relaxation_time_s = 8.0}, 6.17e-4), 1e-12);
   EXPECT_NEAR(fast / plain, 1.5, 1e-3);
 }
 
 TEST(StrengthScatter, GivesEveryReplicateVoxelsOfItsOwn) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   truth.replicates = 2;
   truth.strength_cv = 0.18;
   truth.effects.strength_scatter = 0.24;
@@ -321,7 +322,7 @@ TEST(StrengthScatter, GivesEveryReplicateVoxelsOfItsOwn) {
 
 /// T of the laboratory over T of the testers for one design, both without scatter.
 double laboratory_over_tester(const material::FailureCriterion& criterion) {
-  Truth truth = plain_truth();
+  Truth truth = unaffected_truth();
   truth.toughness = material::with_strengths(
       truth.toughness, material::strength_ratio(criterion) / material::strength_ratio(truth.criterion));
   truth.criterion = criterion;
@@ -348,7 +349,7 @@ TEST(HiddenCriteria, WithALengthKeepTheStrengthAndDrawTailsOut) {
   using material::CriterionKind;
   const SpecimenSize size = specimen_size(TestKind::toughness, tester::Fidelity::tiny);
   const auto of = [&](CriterionKind kind, double progressive_damage) {
-    Truth truth = plain_truth();
+    Truth truth = unaffected_truth();
     truth.criterion.kind = kind;
     truth.effects.progressive_damage = progressive_damage;
     return fracture_raster(truth, some_pattern(), {}, size);

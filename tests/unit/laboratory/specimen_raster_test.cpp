@@ -14,7 +14,7 @@
 namespace nacre::laboratory {
 namespace {
 
-Truth plain_truth() {
+Truth full_truth() {
   Truth truth = draw_truth(11, tester::Fidelity::full);
   truth.effects = {};
   return truth;
@@ -79,12 +79,12 @@ void expect_same_constants(const Truth& truth, const material::ParameterSet& par
 }
 
 TEST(SpecimenRaster, ConstantsAreThoseOfATesterRefinedToTheSameElements) {
-  expect_same_constants(plain_truth(), parameters_of(plain_truth()), 0.0);
+  expect_same_constants(full_truth(), parameters_of(full_truth()), 0.0);
 }
 
 TEST(SpecimenRaster, DropletMixingAveragesOverTheSameSquareAsTheTestersExtension) {
   for (const double pixels : {0.1, 0.4, 1.0, 1.7}) {
-    Truth truth = plain_truth();
+    Truth truth = full_truth();
     truth.effects.droplet_mixing_pixels = pixels;
     material::ParameterSet parameters = parameters_of(truth);
     parameters.extensions["droplet_mixing"] = {pixels};
@@ -94,7 +94,7 @@ TEST(SpecimenRaster, DropletMixingAveragesOverTheSameSquareAsTheTestersExtension
 
 TEST(SpecimenRaster, AnisotropyTurnsWithThePrintersAxesAsTheTestersExtensionDoes) {
   for (const double orientation_deg : {0.0, 90.0}) {
-    Truth truth = plain_truth();
+    Truth truth = full_truth();
     truth.effects.interface_anisotropy = -0.35;
     material::ParameterSet parameters = parameters_of(truth);
     parameters.extensions["interface_anisotropy"] = {-0.35};
@@ -104,11 +104,11 @@ TEST(SpecimenRaster, AnisotropyTurnsWithThePrintersAxesAsTheTestersExtensionDoes
 
 /// Expects the effect to weaken elements of the given sites alone, to 0.6 of what they were.
 void expect_weakened(const HiddenEffects& effects, const std::vector<Site>& sites) {
-  Truth weak = plain_truth();
+  Truth weak = full_truth();
   weak.effects = effects;
   const pattern::Layout layout = sample_layouts().back();
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
-  const Raster before = fracture_raster(plain_truth(), layout, {.orientation_deg = 0.0}, size);
+  const Raster before = fracture_raster(full_truth(), layout, {.orientation_deg = 0.0}, size);
   const Raster after = fracture_raster(weak, layout, {.orientation_deg = 0.0}, size);
   int weakened = 0;
   for (int row = 0; row < after.rows; ++row) {
@@ -161,7 +161,7 @@ TEST(SpecimenRaster, NotchAndCutAreVoidWhereTheTestersAre) {
 }
 
 TEST(SpecimenRaster, EffectsOfZeroAreExactlyNothing) {
-  Truth zero = plain_truth();
+  Truth zero = full_truth();
   zero.effects = {.machine_compliance_per_pa = 0.0,
                   .droplet_mixing_pixels = 0.0,
                   .interface_anisotropy = -0.0,
@@ -171,7 +171,7 @@ TEST(SpecimenRaster, EffectsOfZeroAreExactlyNothing) {
                   .toe_slack = 0.0};
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
   const pattern::Layout layout = sample_layouts().back();
-  const Raster a = modulus_raster(plain_truth(), layout, {.orientation_deg = 0.0}, size),
+  const Raster a = modulus_raster(full_truth(), layout, {.orientation_deg = 0.0}, size),
                b = modulus_raster(zero, layout, {.orientation_deg = 0.0}, size);
   EXPECT_EQ(a.mu_pa, b.mu_pa);
   EXPECT_EQ(a.lambda_pa, b.lambda_pa);

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 constexpr std::string_view kHeader = "tester,fitted_to,parameter,minimum,maximum\n";
 
-std::string error_of(const std::string& rows) {
+std::string error_in(const std::string& rows) {
   try {
     (void)parse_ranges(std::string(kHeader) + rows, "inks.csv");
   } catch (const InputError& error) {
@@ -92,16 +92,16 @@ TEST(Ranges, WrittenAreReadBackToTheBit) {
 }
 
 TEST(Ranges, ErrorsNameFileLineColumnAndWhatWasExpected) {
-  EXPECT_THAT(error_of("stiffness,base,e_vw_pa,1e9,2e9\n"),
+  EXPECT_THAT(error_in("stiffness,base,e_vw_pa,1e9,2e9\n"),
               AllOf(HasSubstr("inks.csv:2: column tester"), HasSubstr("expected modulus or toughness")));
-  EXPECT_THAT(error_of("modulus,coupons,e_vw_pa,1e9,2e9\n"), HasSubstr("expected base or microstructures"));
-  EXPECT_THAT(error_of("modulus,base,w_vw_j_per_m3,1e5,1e6\n"),
+  EXPECT_THAT(error_in("modulus,coupons,e_vw_pa,1e9,2e9\n"), HasSubstr("expected base or microstructures"));
+  EXPECT_THAT(error_in("modulus,base,w_vw_j_per_m3,1e5,1e6\n"),
               AllOf(HasSubstr("column parameter"), HasSubstr("expected one of e_tb_pa, e_vw_pa")));
-  EXPECT_THAT(error_of("modulus,base,e_vw_pa,1e9,2e9\nmodulus,base,e_vw_pa,1e9,3e9\n"),
+  EXPECT_THAT(error_in("modulus,base,e_vw_pa,1e9,2e9\nmodulus,base,e_vw_pa,1e9,3e9\n"),
               AllOf(HasSubstr("inks.csv:3"), HasSubstr("a second time")));
-  EXPECT_THAT(error_of("modulus,base,e_vw_pa,2e9,2e9\n"), HasSubstr("expected more than the minimum"));
-  EXPECT_THAT(error_of("modulus,base,e_vw_pa,0,2e9\n"), HasSubstr("expected a positive number"));
-  EXPECT_THAT(error_of("modulus,base,nu_vw,0.2,0.6\n"), HasSubstr("expected at most 0.5"));
+  EXPECT_THAT(error_in("modulus,base,e_vw_pa,2e9,2e9\n"), HasSubstr("expected more than the minimum"));
+  EXPECT_THAT(error_in("modulus,base,e_vw_pa,0,2e9\n"), HasSubstr("expected a positive number"));
+  EXPECT_THAT(error_in("modulus,base,nu_vw,0.2,0.6\n"), HasSubstr("expected at most 0.5"));
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const fs::path kExports = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
-Import import_case(const std::string& folder) { return import_exports({}, kExports / folder / "sheet.csv"); }
+const fs::path kCases = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
+Import import_case(const std::string& folder) { return import_exports({}, kCases / folder / "sheet.csv"); }
 
 void expect_usual(const ImportedSpecimen& one, double rate_per_s = kRatePerS) {
   EXPECT_NEAR(one.test.modulus_pa, kModulusPa, 0.005 * kModulusPa) << one.record.specimen;
@@ -122,15 +122,14 @@ TEST(Exports, ThousandsMayBeGroupedByTypographicSigns) {
 TEST(Exports, HeadingsOnEveryPageAreOneRecord) { expect_all_usual(import_case("29-headings-on-every-page"), 1); }
 
 TEST(Exports, StrainInPerCentIsDoubted) {
-  const MeasurementSet set = read_measurement_set(kExports / "27-strain-in-per-cent/set");
+  const MeasurementSet set = read_measurement_set(kCases / "27-strain-in-per-cent/set");
   std::string all;
   for (const std::string& warning : set.warnings) all += warning + "\n";
   EXPECT_THAT(all, HasSubstr("is strain in per cent, not a ratio? Then it would be 2.4"));
 }
 
 TEST(Exports, AGroupWithoutAValidSpecimenHasNoMeanAndASingleOneNoScatter) {
-  const auto groups =
-      review_replicates(read_measurement_set(kExports / "31-no-valid-specimen-is-a-zero/set").specimens);
+  const auto groups = review_replicates(read_measurement_set(kCases / "31-no-valid-specimen-is-a-zero/set").specimens);
   ASSERT_EQ(groups.size(), 2U);
   const auto& none = groups[0].valid.empty() ? groups[0] : groups[1];
   const auto& single = groups[0].valid.empty() ? groups[1] : groups[0];

@@ -9,8 +9,8 @@
 namespace nacre::measurement {
 namespace {
 
-/// A rigid coupon that flows, pulled, unloaded and pulled on.
-tester::Curve pulled(const std::vector<double>& strain) {
+/// A rigid coupon that flows, stretched, unloaded and stretched on.
+tester::Curve stretched(const std::vector<double>& strain) {
   material::ParameterSet parameters = material::thesis_parameters();
   parameters.extensions["rigid_yield"] = {2.5e7};
   return tester::test_tensile({pattern::Mixture{1.0}, parameters, {}, tester::Fidelity::tiny}, strain).value();
@@ -20,13 +20,13 @@ std::vector<double> history() { return tester::strain_path({{0.02, 0.005, 0.022}
 
 // What the specimen felt -> what the machine recorded -> what the specimen felt there.
 TEST(ObserveAlong, FindsTheStressesBehindWhatTheMachineRecorded) {
-  const tester::Curve truth = pulled(history());
+  const tester::Curve truth = stretched(history());
   for (const material::Extensions& machine :
        {material::Extensions{{"machine_compliance", {2e-10}}}, material::Extensions{{"toe_slack", {0.002}}},
         material::Extensions{{"machine_compliance", {3e-10}}, {"toe_slack", {0.001}}, {"load_cell_gain", {0.1}}},
         material::Extensions{{"batch_drift", {0.05}}, {"machine_compliance", {1e-10}}}}) {
     const tester::Curve recorded = observe_curve(truth, machine, {.batch_step = 2.0});
-    const tester::Curve again = observe_along(recorded.strain, pulled, machine, {.batch_step = 2.0});
+    const tester::Curve again = observe_along(recorded.strain, stretched, machine, {.batch_step = 2.0});
     ASSERT_EQ(again.strain, recorded.strain);
     const double peak = *std::max_element(recorded.stress_pa.begin(), recorded.stress_pa.end());
     for (std::size_t i = 0; i < recorded.size(); ++i)
@@ -35,11 +35,11 @@ TEST(ObserveAlong, FindsTheStressesBehindWhatTheMachineRecorded) {
 }
 
 TEST(ObserveAlong, IsTheSpecimenItselfWithoutAMachine) {
-  EXPECT_EQ(observe_along(history(), pulled, {}), pulled(history()));
+  EXPECT_EQ(observe_along(history(), stretched, {}), stretched(history()));
 }
 
 TEST(ObserveAlong, NothingIsFeltUntilTheSlackIsTakenUp) {
-  const tester::Curve shown = observe_along({0.0, 0.001, 0.002, 0.003}, pulled, {{"toe_slack", {0.002}}});
+  const tester::Curve shown = observe_along({0.0, 0.001, 0.002, 0.003}, stretched, {{"toe_slack", {0.002}}});
   EXPECT_EQ(shown.stress_pa[0], 0.0);
   EXPECT_EQ(shown.stress_pa[1], 0.0);
   EXPECT_EQ(shown.stress_pa[2], 0.0);
