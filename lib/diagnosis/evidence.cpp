@@ -123,9 +123,11 @@ bool is_usable(const FittedModel& fit, double p_fit, double level) { return p_fi
 
 Evidence gather_evidence(const Data& data, const DiagnosisSettings& settings) {
   Evidence evidence = with_chances(with_draws(fitted(data, settings)));
+  std::vector<PairsOnSingle> built;
   while (needs_pairs(evidence)) {
     report(settings, 0.9, "fitting pairs of effects");
-    Pairs found = pairs_on_best(evidence);
+    Pairs found = pairs_on_best(evidence, std::move(built));
+    built = std::move(found.built);
     evidence.singles = std::move(found.singles);
     if (found.improved) {
       evidence = with_chances(std::move(evidence));

@@ -61,15 +61,25 @@ FittedModel refitted_alone(const Evidence& evidence, const FittedModel& single, 
                     single);
 }
 
+std::vector<FittedModel> pairs_on(const Evidence& evidence, const FittedModel& single,
+                                  std::vector<PairsOnSingle>& built) {
+  const auto known = std::ranges::find_if(built, [&](const PairsOnSingle& earlier) {
+    return earlier.single.effects == single.effects && earlier.single.u == single.u;
+  });
+  if (known != built.end()) return known->pairs;
+  built.push_back({single, significant_pairs(evidence, single)});
+  return built.back().pairs;
+}
+
 }  // namespace
 
-Pairs pairs_on_best(const Evidence& evidence) {
-  Pairs found{.pairs = {}, .singles = evidence.singles};
+Pairs pairs_on_best(const Evidence& evidence, std::vector<PairsOnSingle> built_before) {
+  Pairs found{.pairs = {}, .singles = evidence.singles, .built = std::move(built_before)};
   std::set<std::set<std::string>> known;
   for (const std::size_t anchor : pair_anchors(evidence)) {
     FittedModel& single = found.singles[anchor];
     const double before = single.chi2;
-    std::vector<FittedModel> built = significant_pairs(evidence, single);
+    std::vector<FittedModel> built = pairs_on(evidence, single, found.built);
     single = refitted_alone(evidence, single, built);
     found.improved = single.chi2 < before - evidence.settings.procedure.fit.better;
     if (found.improved) return found;
