@@ -1,5 +1,6 @@
 #include "tester/assembly.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -78,6 +79,33 @@ material::Constants mean_constants(const material::Phases& phases, std::span<con
   mean.threshold_j_per_m3 = std::exp(mean.threshold_j_per_m3);
   return mean;
 }
+
+/// Mean constants of the elements of one assembly. Those of one material throughout, most of them, are worked out once.
+class ElementConstants {
+ public:
+  explicit ElementConstants(const material::Phases& phases) : phases_(phases) {}
+
+  material::Constants of(std::span<const double> rigid_fractions) {
+    const double fraction = rigid_fractions.front();
+    if (std::ranges::any_of(rigid_fractions, [&](double other) { return other != fraction; }))
+      return mean_constants(phases_, rigid_fractions);
+    const auto known = std::ranges::find(known_, fraction, &Known::rigid_fraction);
+    if (known != known_.end()) return known->mean;
+    const material::Constants mean = mean_constants(phases_, rigid_fractions);
+    if (known_.size() < kMostKnown) known_.push_back({fraction, mean});
+    return mean;
+  }
+
+ private:
+  struct Known {
+    double rigid_fraction = 0.0;
+    material::Constants mean;
+  };
+  static constexpr std::size_t kMostKnown = 8;  ///< few without blur; with blur hardly two elements are alike
+
+  const material::Phases& phases_;
+  std::vector<Known> known_;
+};
 
 /// The composition of one unit: `parts` x `parts` cells per element, their rigid fractions in `fraction`, row by row of
 /// the whole unit.
@@ -180,11 +208,12 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
   const double confinement = material::plane_strain_share(extensions, conditions.thickness_mm);
   const int side = kElementsPerUnit * refinement;
   const auto of_unit = [&](int i) { return (i + first + side) % side; };
+  ElementConstants mean(phases);
   MadeOf element;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
       collect(made, refinement, of_unit(row), of_unit(column), element);
-      material::Constants constants = mean_constants(phases, element.rigid_fractions);
+      material::Constants constants = mean.of(element.rigid_fractions);
       const double factor = anisotropy_factor(element.share_x, element.share_y, anisotropy);
       constants.young_pa *= factor;
       constants.threshold_j_per_m3 *= factor;
