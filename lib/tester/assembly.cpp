@@ -1,9 +1,9 @@
 #include "tester/assembly.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -80,43 +80,16 @@ material::Constants mean_constants(const material::Phases& phases, std::span<con
   return mean;
 }
 
-/// Mean constants of the elements of one assembly. Those of one material throughout, most of them, are worked out once.
-class ElementConstants {
- public:
-  explicit ElementConstants(const material::Phases& phases) : phases_(phases) {}
-
-  material::Constants of(std::span<const double> rigid_fractions) {
-    const double fraction = rigid_fractions.front();
-    if (std::ranges::any_of(rigid_fractions, [&](double other) { return other != fraction; }))
-      return mean_constants(phases_, rigid_fractions);
-    const auto known = std::ranges::find(known_, fraction, &Known::rigid_fraction);
-    if (known != known_.end()) return known->mean;
-    const material::Constants mean = mean_constants(phases_, rigid_fractions);
-    if (known_.size() < kMostKnown) known_.push_back({fraction, mean});
-    return mean;
-  }
-
- private:
-  struct Known {
-    double rigid_fraction = 0.0;
-    material::Constants mean;
-  };
-  static constexpr std::size_t kMostKnown = 8;  ///< few without blur; with blur hardly two elements are alike
-
-  const material::Phases& phases_;
-  std::vector<Known> known_;
-};
-
 /// The composition of one unit: `parts` x `parts` cells per element, their rigid fractions in `fraction`, row by row of
 /// the whole unit.
-struct LaidDown {
+struct Composition {
   PrintedUnit unit;
   std::vector<double> fraction;
   int parts = 1;
 };
 
-LaidDown lay_down(const pattern::Layout& layout, double blur_pixels, double overprint_pixels, int refinement) {
-  LaidDown result;
+Composition composition(const pattern::Layout& layout, double blur_pixels, double overprint_pixels, int refinement) {
+  Composition result;
   int split = 1;  // of the unit's cells
   if (overprint_pixels == 0.0) {
     result.unit = printed_unit(layout);
@@ -128,6 +101,52 @@ LaidDown lay_down(const pattern::Layout& layout, double blur_pixels, double over
   }
   result.fraction = blurred_fractions(result.unit, blur_pixels, split);
   return result;
+}
+
+/// What one element is made of.
+struct Element {
+  std::vector<double> rigid_fractions;  ///< of its cells
+  double mean_fraction = 0.0;
+  double share_x = 0.0, share_y = 0.0;  ///< interface between x- and y-neighbours
+
+  friend auto operator<=>(const Element&, const Element&) = default;
+};
+
+Element element_at(const Composition& made, int refinement, int row, int column) {
+  const int parts = made.parts, side = kElementsPerUnit * refinement * parts;
+  Element element;
+  element.rigid_fractions.reserve(parts * parts);
+  for (int part = 0; part < parts * parts; ++part) {
+    const int part_row = row * parts + part / parts, part_column = column * parts + part % parts;
+    const double fraction = made.fraction[part_row * side + part_column];
+    const int parts_per_cell = side / made.unit.side();
+    const std::size_t cell = made.unit.index(part_row / parts_per_cell, part_column / parts_per_cell);
+    element.rigid_fractions.push_back(fraction);
+    element.mean_fraction += fraction / (parts * parts);
+    element.share_x += made.unit.joins_x[cell] / (parts * parts);
+    element.share_y += made.unit.joins_y[cell] / (parts * parts);
+  }
+  return element;
+}
+
+/// The elements of one unit: few of them differ, unless inks mix, and what they mean is worked out once for each.
+struct LaidDown {
+  std::vector<Element> elements;  ///< each once
+  std::vector<int> element_of;    ///< of each place, row by row
+};
+
+LaidDown lay_down(const Composition& made, int refinement) {
+  const int side = kElementsPerUnit * refinement;
+  std::map<Element, int> known;
+  LaidDown unit;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const auto [entry, is_new] =
+          known.try_emplace(element_at(made, refinement, row, column), static_cast<int>(known.size()));
+      if (is_new) unit.elements.push_back(entry->first);
+      unit.element_of.push_back(entry->second);
+    }
+  return unit;
 }
 
 /// The unit of a layout. The last one of a thread is kept: slopes need the same unit with other constants, and growth
@@ -145,31 +164,8 @@ const LaidDown& laid_down(const pattern::Layout& layout, const material::Extensi
   if (!last || last->refinement != refinement || last->blur_pixels != blur_pixels ||
       last->overprint_pixels != overprint_pixels || last->layout != layout)
     last = Last{layout, blur_pixels, overprint_pixels, refinement,
-                lay_down(layout, blur_pixels, overprint_pixels, refinement)};
+                lay_down(composition(layout, blur_pixels, overprint_pixels, refinement), refinement)};
   return last->made;
-}
-
-/// One element of the unit, made of several parts.
-struct MadeOf {
-  std::vector<double> rigid_fractions;
-  double mean_fraction = 0.0;
-  double share_x = 0.0, share_y = 0.0;  ///< interface between x- and y-neighbours
-};
-
-void collect(const LaidDown& made, int refinement, int row, int column, MadeOf& element) {
-  const int parts = made.parts, side = kElementsPerUnit * refinement * parts;
-  element.rigid_fractions.clear();
-  element.mean_fraction = element.share_x = element.share_y = 0.0;
-  for (int part = 0; part < parts * parts; ++part) {
-    const int part_row = row * parts + part / parts, part_column = column * parts + part % parts;
-    const double fraction = made.fraction[part_row * side + part_column];
-    const int parts_per_cell = side / made.unit.side();
-    const std::size_t cell = made.unit.index(part_row / parts_per_cell, part_column / parts_per_cell);
-    element.rigid_fractions.push_back(fraction);
-    element.mean_fraction += fraction / (parts * parts);
-    element.share_x += made.unit.joins_x[cell] / (parts * parts);
-    element.share_y += made.unit.joins_y[cell] / (parts * parts);
-  }
 }
 
 /// Sets the extensions of the law of element `e`, of that rigid fraction. An array is allocated by the first element
@@ -206,20 +202,23 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
   const double anisotropy = turned ? -printer_anisotropy : printer_anisotropy;
   const double confinement = material::plane_strain_share(extensions, conditions.thickness_mm);
+  std::vector<material::Constants> constants;
+  for (const Element& element : made.elements) {
+    constants.push_back(mean_constants(phases, element.rigid_fractions));
+    const double factor = anisotropy_factor(element.share_x, element.share_y, anisotropy);
+    constants.back().young_pa *= factor;
+    constants.back().threshold_j_per_m3 *= factor;
+    constants.back() = material::confined(constants.back(), confinement);
+  }
   const int side = kElementsPerUnit * refinement;
   const auto of_unit = [&](int i) { return (i + first + side) % side; };
-  ElementConstants mean(phases);
-  MadeOf element;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      collect(made, refinement, of_unit(row), of_unit(column), element);
-      material::Constants constants = mean.of(element.rigid_fractions);
-      const double factor = anisotropy_factor(element.share_x, element.share_y, anisotropy);
-      constants.young_pa *= factor;
-      constants.threshold_j_per_m3 *= factor;
-      set_element(grid, grid.index(row, column), material::confined(constants, confinement),
-                  nearest_phase(element.mean_fraction), refinement);
-      if (laws.any()) set_law(grid, grid.index(row, column), laws, element.mean_fraction);
+      const int which = made.element_of[of_unit(row) * side + of_unit(column)];
+      const double rigid_fraction = made.elements[which].mean_fraction;
+      const std::size_t e = grid.index(row, column);
+      set_element(grid, e, constants[which], nearest_phase(rigid_fraction), refinement);
+      if (laws.any()) set_law(grid, e, laws, rigid_fraction);
     }
 }
 
