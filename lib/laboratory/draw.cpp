@@ -92,6 +92,7 @@ Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity) {
           .fidelity = fidelity,
           .noise = {},
           .modulus = draw_modulus_parameters(seed),
+          .coupons = {},
           .toughness = material::with_strengths(draw_toughness_parameters(seed),
                                                 material::strength_ratio(material::base_criterion())),
           .criterion = material::base_criterion(),

@@ -71,13 +71,15 @@ Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, 
 }
 
 Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& experiment) {
+  const int count = variation_of_strength(truth) > 0.0 ? truth.replicates : 1;
+  std::vector<Result<PulledSpecimen>> specimens(count);
+  parallel_for(count, [&](int i) { specimens[i] = pulled(truth, experiment, i); });
   TrueResponse response;
-  const int specimens = variation_of_strength(truth) > 0.0 ? truth.replicates : 1;
-  for (int specimen = 0; specimen < specimens; ++specimen) {
-    const Result<PulledSpecimen> one = pulled(truth, experiment, specimen);
+  for (int i = 0; i < count; ++i) {
+    const Result<PulledSpecimen>& one = specimens[i];
     if (!one) return fail("fracture bench: {}", one.error().message);
     const tester::Curve curve = tester::resampled(one->curve, kCurvePoints);
-    if (specimen > 0) {
+    if (i > 0) {
       response.other_curves.push_back(curve);
       continue;
     }

@@ -153,7 +153,11 @@ runtime::Status VirtualLabCore::status() const {
 }
 
 Truth truth_of(const game::Scenario& scenario) {
-  if (scenario.laboratory.file.empty()) return laboratory::draw_truth(scenario.seed, scenario.fidelity);
+  if (scenario.laboratory.file.empty()) {
+    Truth drawn = laboratory::draw_truth(scenario.seed, scenario.fidelity);
+    drawn.replicates = scenario.validation.replicates;  // each costs a simulation, and no more are ordered
+    return drawn;
+  }
   Truth truth = laboratory::read_laboratory(scenario.laboratory.file, scenario.seed);
   truth.fidelity = scenario.fidelity;
   return truth;
