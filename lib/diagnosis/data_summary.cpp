@@ -87,6 +87,7 @@ MeasuredMean mean_of(const std::vector<Reading>& readings) {
   return {.design = first.design.name(),
           .test = first.test,
           .conditions = first.conditions,
+          .surroundings = measurement::surroundings_of(first),
           .quantity = readings.front().quantity,
           .pieces = count,
           .mean_pa = std::exp(middle),
@@ -96,16 +97,21 @@ MeasuredMean mean_of(const std::vector<Reading>& readings) {
 }
 
 std::vector<MeasuredMean> means_of(const std::vector<Reading>& readings) {
-  using Key = std::tuple<std::string, TestKind, Quantity, double, double, double>;
+  using Key = std::tuple<std::string, TestKind, Quantity, double, double, double, std::string>;
   std::map<Key, std::vector<Reading>> groups;
   for (const Reading& reading : readings) {
     const SpecimenRecord& s = *reading.specimen;
     groups[{s.design.name(), s.test, reading.quantity, s.conditions.orientation_deg, s.conditions.strain_rate_per_s,
-            s.conditions.thickness_mm}]
+            s.conditions.thickness_mm, measurement::nominal_surroundings(measurement::surroundings_of(s))}]
         .push_back(reading);
   }
   std::vector<MeasuredMean> means;
   for (const auto& [key, group] : groups) means.push_back(mean_of(group));
+  std::ranges::stable_sort(means, {}, [](const MeasuredMean& m) {
+    const tester::TestConditions& c = m.conditions;
+    return std::tuple(m.design, m.test, m.quantity, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm,
+                      m.surroundings.temperature_c, m.surroundings.humidity_pct, m.surroundings.age_days);
+  });
   return means;
 }
 

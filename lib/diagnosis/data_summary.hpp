@@ -8,6 +8,7 @@
 
 #include "diagnosis/procedure.hpp"
 #include "measurement/specimen_record.hpp"
+#include "measurement/surroundings.hpp"
 
 namespace nacre::diagnosis {
 
@@ -20,6 +21,7 @@ struct MeasuredMean {
   std::string design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
+  measurement::Surroundings surroundings;  ///< of one of the pieces; those of the others are equal to within its limits
   Quantity quantity = Quantity::modulus;
   int pieces = 0;  ///< tests of one piece count once
   double mean_pa = 0.0;

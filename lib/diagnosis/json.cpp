@@ -125,16 +125,22 @@ ordered_json by_name(std::span<const double> values, std::span<const std::string
 }
 
 ordered_json json_of(const MeasuredMean& m) {
-  return {{"design", m.design},
-          {"test", tester::to_string(m.test)},
-          {"orientation_deg", m.conditions.orientation_deg},
-          {"strain_rate_per_s", m.conditions.strain_rate_per_s},
-          {"thickness_mm", m.conditions.thickness_mm},
-          {"quantity", to_string(m.quantity)},
-          {"pieces", m.pieces},
-          {"mean_pa", m.mean_pa},
-          {"interval90_pa", {m.low_pa, m.high_pa}},
-          {"scatter", m.scatter}};
+  ordered_json json = {{"design", m.design},
+                       {"test", tester::to_string(m.test)},
+                       {"orientation_deg", m.conditions.orientation_deg},
+                       {"strain_rate_per_s", m.conditions.strain_rate_per_s},
+                       {"thickness_mm", m.conditions.thickness_mm}};
+  const measurement::Surroundings& around = m.surroundings;
+  if (around.temperature_c) json["temperature_c"] = *around.temperature_c;
+  if (around.humidity_pct) json["humidity_pct"] = *around.humidity_pct;
+  if (around.age_days) json["age_days"] = *around.age_days;
+  if (!around.machine.empty()) json["machine"] = around.machine;
+  json.update({{"quantity", to_string(m.quantity)},
+               {"pieces", m.pieces},
+               {"mean_pa", m.mean_pa},
+               {"interval90_pa", {m.low_pa, m.high_pa}},
+               {"scatter", m.scatter}});
+  return json;
 }
 
 ordered_json json_of(const ConditionTrend& t) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pattern/design.hpp"
 #include "report/report_text.hpp"
@@ -70,6 +71,15 @@ std::string rate_figure(const DataSummary& data) {
   return plot.svg();
 }
 
+std::string words_of(const measurement::Surroundings& around) {
+  std::vector<std::string> words;
+  if (around.temperature_c) words.push_back(fmt::format("{:g} °C", *around.temperature_c));
+  if (around.humidity_pct) words.push_back(fmt::format("{:g} % humidity", *around.humidity_pct));
+  if (around.age_days) words.push_back(fmt::format("{:g} days old", *around.age_days));
+  if (!around.machine.empty()) words.push_back(around.machine);
+  return words.empty() ? std::string(kDash) : fmt::format("{}", fmt::join(words, ", "));
+}
+
 ExhibitTable mean_table(const DataSummary& data) {
   ExhibitTable table{.name = "",
                      .columns = {{"", "material"},
@@ -77,6 +87,7 @@ ExhibitTable mean_table(const DataSummary& data) {
                                  {"", "strain rate, 1/s"},
                                  {"", "thickness, mm"},
                                  {"", "orientation, °"},
+                                 {"", "surroundings", "Temperature, humidity, age, machine, where noted"},
                                  {"", "quantity"},
                                  {"", "pieces", "Tests of one piece count once"},
                                  {"", "mean, MPa", "Geometric mean of the pieces"},
@@ -87,8 +98,9 @@ ExhibitTable mean_table(const DataSummary& data) {
     if (!is_homogeneous(m)) continue;
     table.add({text_cell(m.design), text_cell(tester::to_string(m.test)),
                shown_cell(quantity(m.conditions.strain_rate_per_s)), shown_cell(quantity(m.conditions.thickness_mm)),
-               shown_cell(fmt::format("{:.0f}", m.conditions.orientation_deg)), text_cell(to_string(m.quantity)),
-               shown_cell(fmt::format("{}", m.pieces)), shown_cell(quantity(1e-6 * m.mean_pa)),
+               shown_cell(fmt::format("{:.0f}", m.conditions.orientation_deg)), text_cell(words_of(m.surroundings)),
+               text_cell(to_string(m.quantity)), shown_cell(fmt::format("{}", m.pieces)),
+               shown_cell(quantity(1e-6 * m.mean_pa)),
                shown_cell(m.pieces > 1 ? fmt::format("{} … {}", quantity(1e-6 * m.low_pa), quantity(1e-6 * m.high_pa))
                                        : std::string(kDash)),
                shown_cell(m.pieces > 1 ? percent(m.scatter) : std::string(kDash))});

@@ -39,6 +39,21 @@ TEST(DataSummary, MeansHaveTheIntervalOfStudent) {
   EXPECT_TRUE(data.trends.empty());
 }
 
+// 25 and 26 degrees are one room, 60 degrees is an oven.
+TEST(DataSummary, MeansAreThoseOfOneTemperature) {
+  std::vector<SpecimenRecord> specimens;
+  for (const char* temperature : {"25", "26", "60"}) {
+    specimens.push_back(modulus_of(temperature, 1.0, std::string(temperature) == "60" ? 2e8 : 1e9));
+    specimens.back().other_columns["temperature_c"] = temperature;
+  }
+  const DataSummary data = summary(specimens);
+  ASSERT_EQ(data.means.size(), 2u);
+  EXPECT_EQ(data.means[0].pieces, 2);
+  EXPECT_NEAR(data.means[0].mean_pa, 1e9, 1.0);
+  EXPECT_EQ(data.means[1].surroundings.temperature_c, 60.0);
+  EXPECT_NEAR(data.means[1].mean_pa, 2e8, 1.0);
+}
+
 // E grows as the rate to the power 0.2 in one material and not at all in another.
 TEST(DataSummary, RatesHaveAnExponentOfEachMaterial) {
   RandomStream noise(3, "test");
