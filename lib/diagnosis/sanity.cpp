@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -106,6 +107,9 @@ std::vector<std::string> groups_out_of_line(const std::vector<measurement::Speci
   for (const measurement::ReplicateGroup& group : measurement::review_replicates(specimens))
     if (!group.proposed.empty() || group.state == measurement::GroupState::inconsistent)
       groups.push_back(fmt::format("{} of {}", tester::to_string(group.test), group.design.name()));
+  // One design under several conditions is said once.
+  std::set<std::string> said;
+  std::erase_if(groups, [&](const std::string& group) { return !said.insert(group).second; });
   return groups;
 }
 
