@@ -71,7 +71,8 @@ Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, 
 }
 
 Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& experiment) {
-  const int count = variation_of_strength(truth) > 0.0 ? truth.replicates : 1;
+  const int asked = experiment.specimens > 0 ? experiment.specimens : truth.replicates;
+  const int count = variation_of_strength(truth) > 0.0 ? asked : 1;
   std::vector<Result<PulledSpecimen>> specimens(count);
   parallel_for(count, [&](int i) { specimens[i] = pulled(truth, experiment, i); });
   TrueResponse response;

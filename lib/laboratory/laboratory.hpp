@@ -19,6 +19,7 @@ struct Experiment {
   tester::TestConditions conditions = {};
   tester::Fidelity fidelity = tester::Fidelity::full;
   tester::Loading loading = {};  ///< of a coupon; every other test is monotonic
+  int specimens = 0;  ///< pulled to separation, as far as they differ; 0: as many as the truth has replicates
   bool operator==(const Experiment&) const = default;
 };
 
@@ -27,8 +28,8 @@ struct TrueResponse {
   double modulus_pa = 0.0;   ///< test `modulus`
   tester::Curve curve = {};  ///< `toughness` and `tensile`
   std::string remark = {};   ///< what a lab book would note, or empty
-  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth
-  /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
+  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the
+  /// experiment has. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
 };
 

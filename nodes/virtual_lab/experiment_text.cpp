@@ -7,14 +7,15 @@ namespace nacre::virtual_lab {
 using nlohmann::json;
 
 std::string to_spec(const Experiment& experiment) {
-  return json{{"design", experiment.design.name()},
+  json fields{{"design", experiment.design.name()},
               {"test", tester::to_string(experiment.test)},
               {"fidelity", tester::to_string(experiment.fidelity)},
               {"orientation_deg", experiment.conditions.orientation_deg},
               {"strain_rate_per_s", experiment.conditions.strain_rate_per_s},
               {"thickness_mm", experiment.conditions.thickness_mm},
-              {"loading", tester::to_string(experiment.loading)}}
-      .dump();
+              {"loading", tester::to_string(experiment.loading)}};
+  if (experiment.specimens > 0) fields["specimens"] = experiment.specimens;
+  return fields.dump();
 }
 
 Result<Experiment> experiment_from_spec(std::string_view spec) try {
@@ -33,7 +34,8 @@ Result<Experiment> experiment_from_spec(std::string_view spec) try {
                                    .strain_rate_per_s = fields.at("strain_rate_per_s").get<double>(),
                                    .thickness_mm = fields.at("thickness_mm").get<double>()},
                     .fidelity = *fidelity,
-                    .loading = *loading};
+                    .loading = *loading,
+                    .specimens = fields.value("specimens", 0)};
 } catch (const json::exception& error) {
   return fail("experiment of the virtual laboratory: {}", error.what());
 }

@@ -22,12 +22,15 @@ constexpr const char* kRevealChannel = "REVEAL";
 constexpr const char* kWorkKind = "measure";
 constexpr int kPrintPositions = 1000;
 
-Experiment experiment_of(const wire::TestOrder& order) {
+/// Orders of as many specimens as the truth has share a simulation; one of more has its own.
+Experiment experiment_of(const wire::TestOrder& order, const Truth& truth) {
+  const bool of_more = order.test == tester::TestKind::toughness && order.replicates > truth.replicates;
   return {.design = order.design,
           .test = order.test,
           .conditions = order.conditions,
           .fidelity = order.fidelity,
-          .loading = order.loading};
+          .loading = order.loading,
+          .specimens = of_more ? order.replicates : 0};
 }
 
 /// Where on the print bed's list a specimen stands: drawn, so that it is known before the rest of the batch is.
@@ -91,7 +94,7 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
     return;
   }
   latest_round_ = std::max(latest_round_, order->round);
-  const Experiment experiment = experiment_of(*order);
+  const Experiment experiment = experiment_of(*order, truth_);
   const std::string spec = to_spec(experiment);
   const std::string id = "measure/" + content_hash(spec);
   const auto [simulation, first] =
@@ -155,7 +158,7 @@ runtime::Status VirtualLabCore::status() const {
 Truth truth_of(const game::Scenario& scenario) {
   if (scenario.laboratory.file.empty()) {
     Truth drawn = laboratory::draw_truth(scenario.seed, scenario.fidelity);
-    drawn.replicates = scenario.validation.replicates;  // each costs a simulation, and no more are ordered
+    drawn.replicates = scenario.validation.replicates;  // each costs a simulation
     return drawn;
   }
   Truth truth = laboratory::read_laboratory(scenario.laboratory.file, scenario.seed);

@@ -313,6 +313,12 @@ TEST(StrengthScatter, GivesEveryReplicateVoxelsOfItsOwn) {
   ASSERT_TRUE(response.has_value()) << response.error().message;
   ASSERT_EQ(response->other_curves.size(), 1u);
   EXPECT_NE(response->other_curves[0], response->curve);
+  Experiment of_three = experiment;
+  of_three.specimens = 3;
+  const std::vector<tester::Curve> others = respond(truth, of_three)->other_curves;
+  ASSERT_EQ(others.size(), 2u);
+  EXPECT_EQ(others[0], response->other_curves[0]) << "the second specimen is the same one";
+  EXPECT_NE(others[1], others[0]);
   // So does the variation that every print has, to which the effect adds.
   truth.effects = {};
   truth.strength_cv = 0.3;

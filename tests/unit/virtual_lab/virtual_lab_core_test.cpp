@@ -130,6 +130,21 @@ TEST(VirtualLabCore, EqualExperimentsAreSimulatedOnce) {
   EXPECT_EQ(computes, 2);
 }
 
+TEST(VirtualLabCore, AnOrderOfMoreSpecimensThanTheTruthHasPullsThemAll) {
+  Truth of_two = truth();
+  of_two.replicates = 2;
+  VirtualLabCore core(of_two);
+  wire::TestOrder few = order("r1/a/toughness", "577fffe9fffdef", tester::TestKind::toughness);
+  few.replicates = 2;
+  wire::TestOrder many = few;
+  many.order_id = "r1/b/toughness", many.replicates = 3;
+  const Outputs first = core.step(message(few)), second = core.step(message(many));
+  ASSERT_EQ(first.computes.size(), 1u);
+  ASSERT_EQ(second.computes.size(), 1u);
+  EXPECT_EQ(experiment_from_spec(first.computes[0].spec)->specimens, 0) << "as many as the truth has";
+  EXPECT_EQ(experiment_from_spec(second.computes[0].spec)->specimens, 3);
+}
+
 TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherExperiment) {
   VirtualLabCore core(truth());
   const wire::TestOrder pulled = order("r1/a/tensile", "rigid", tester::TestKind::tensile);
