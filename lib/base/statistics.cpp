@@ -80,4 +80,13 @@ double student_beyond(double t, int degrees) {
   return std::clamp(1.0 - share, 0.0, 1.0);
 }
 
+double student_quantile(double chance, int degrees) {
+  double low = 0.0, high = 1e4;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (student_beyond(middle, degrees) > chance ? low : high) = middle;
+  }
+  return high;
+}
+
 }  // namespace nacre

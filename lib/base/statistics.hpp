@@ -35,4 +35,7 @@ double normal_cdf(double x);
 /// Stegun 26.7.3 and 26.7.4: exact).
 double student_beyond(double t, int degrees);
 
+/// Student's t that is exceeded on either side with this chance, by bisection.
+double student_quantile(double chance, int degrees);
+
 }  // namespace nacre

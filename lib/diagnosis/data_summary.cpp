@@ -58,16 +58,6 @@ std::vector<Reading> readings_of(const std::vector<SpecimenRecord>& specimens) {
   return readings;
 }
 
-/// Student's t that is exceeded on either side with this chance, by bisection.
-double student_quantile(double chance, int degrees) {
-  double low = 0.0, high = 1e4;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (student_beyond(middle, degrees) > chance ? low : high) = middle;
-  }
-  return high;
-}
-
 /// Means of the readings of one piece.
 std::vector<double> means_of_pieces(const std::vector<Reading>& readings) {
   std::map<std::string, std::vector<double>> of_piece;

@@ -52,6 +52,7 @@ TEST(Statistics, StudentsChanceIsThatOfTheTables) {
   EXPECT_NEAR(student_beyond(2.228, 10), 0.05, 1e-4);
   EXPECT_NEAR(student_beyond(2.0, 100000), 2.0 * normal_cdf(-2.0), 1e-5);
   EXPECT_EQ(student_beyond(0.0, 5), 1.0);
+  EXPECT_NEAR(student_quantile(0.10, 2), 2.920, 1e-3);
 }
 
 }  // namespace
