@@ -58,8 +58,10 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
   for (const DataRow& row : observations.rows) {
     parts.push_back(static_cast<std::size_t>(row.test));
     const bool of_coupons = row.group >= 0 && row.test == tester::TestKind::tensile;
-    if (!of_coupons && row.kind != RowKind::constant) continue;
-    const std::string name = of_coupons ? observations.groups[row.group].material() : "constants";
+    const bool of_own_scatter = row.scatter != static_cast<std::size_t>(row.test);
+    if (!of_coupons && !of_own_scatter && row.kind != RowKind::constant) continue;
+    std::string name = row.kind == RowKind::constant ? "constants" : observations.groups[row.group].material();
+    if (!of_coupons && of_own_scatter) name = "moduli of " + name;
     parts.back() = further.emplace(name, kTests + further.size()).first->second;
   }
   return parts;
@@ -88,6 +90,8 @@ DataSource::DataSource(const Observations& observations)
     parts_.insert(parts_.end(), rows.size(), part);
     next += count;
   }
+  worth_.resize(dof_.size());
+  for (const std::size_t used : scatter_) worth_[used] = observations.scatter[used].worth;
 }
 
 FittedModel DataSource::combined(FittedModel fit) const {
@@ -107,6 +111,12 @@ Anchor DataSource::combined(Anchor anchor) const {
   return anchor;
 }
 
+ScatterFactors DataSource::draw_true_factors(RandomStream& random) const {
+  ScatterFactors factors;
+  for (const int worth : worth_) factors.push_back(worth > 0 ? worth / chi_square(worth, random) : 1.0);
+  return factors;
+}
+
 ScatterFactors DataSource::draw_factors(RandomStream& random) const {
   ScatterFactors factors;
   for (const auto& [dof, assumed] : dof_)
@@ -123,7 +133,8 @@ Eigen::VectorXd DataSource::variances(const ScatterFactors& factors) const {
 
 NoisyData DataSource::draw(const Eigen::VectorXd& truth, RandomStream& random) const {
   Eigen::VectorXd values = truth;
-  for (double& value : values) value += random.normal();
+  const Eigen::VectorXd true_variances = variances(draw_true_factors(random));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += std::sqrt(true_variances[i]) * random.normal();
   return {std::move(values), Whitener::independent(variances(draw_factors(random)).cwiseSqrt())};
 }
 

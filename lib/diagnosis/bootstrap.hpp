@@ -58,6 +58,8 @@ class DataSource {
   NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
 
  private:
+  /// The true scatter, over the one that is assumed where there are no replicates.
+  ScatterFactors draw_true_factors(RandomStream& random) const;
   /// The scatter that as many replicates may estimate, over the true one.
   ScatterFactors draw_factors(RandomStream& random) const;
 
@@ -66,6 +68,7 @@ class DataSource {
   std::vector<std::size_t> scatter_;      ///< of a combination: index in Observations::scatter
   std::vector<std::size_t> parts_;        ///< of a combination
   std::vector<std::pair<int, int>> dof_;  ///< of each scatter, and how many more are assumed
+  std::vector<int> worth_;                ///< of each scatter that is only assumed, degrees of freedom; else 0
 };
 
 /// Statistics of data against the anchor, by linear refits. A direction of which the anchor leaves less than the share

@@ -10,6 +10,7 @@
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
+#include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/other_materials.hpp"
@@ -34,15 +35,15 @@ RowsOf rows_of(const Observations& observations, std::size_t part) {
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const FittedModel& base,
-                                       const FittedModel& extended) {
-  // The predictions contain the shared discretisation error expected from these residuals.
+                                       const Observations& extending, const FittedModel& extended) {
+  // The predictions contain what the rows share, as expected from these residuals.
   const Eigen::VectorXd variances = observations.own_variances();
-  const auto with_discretisation = [&](const FittedModel& fit) -> Eigen::VectorXd {
-    std::vector<Eigen::Index> all(observations.size());
+  const auto with_shared = [](const Observations& own, const FittedModel& fit) -> Eigen::VectorXd {
+    std::vector<Eigen::Index> all(own.size());
     std::iota(all.begin(), all.end(), 0);
-    return fit.predicted + observations.shared_discretisation(observations.values - fit.predicted, all);
+    return fit.predicted + own.expected_shared(own.values - fit.predicted, all);
   };
-  const Eigen::VectorXd by_base = with_discretisation(base), by_extended = with_discretisation(extended);
+  const Eigen::VectorXd by_base = with_shared(observations, base), by_extended = with_shared(extending, extended);
   const std::vector<Descriptor> described = descriptors();
   std::vector<ResidualRow> rows;
   for (int i = 0; i < observations.size(); ++i) {
@@ -140,7 +141,8 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.verdict = decision.verdict;
   diagnosis.finding = decision.finding;
   diagnosis.untold = decision.untold;
-  diagnosis.p_misfit = evidence.p_misfit;
+  diagnosis.factors = evidence.factors;
+  diagnosis.p_misfit = plain(evidence).p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
   diagnosis.loudest = rows_of(observations, decision.loudest_part);
@@ -194,15 +196,18 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   const FittedModel& decided = !decision.possible.empty() ? decision.possible.front()
                                : decision.partial         ? *decision.partial
                                                           : evidence.base.fit;
+  Evidence extending = evidence;
+  if (decision.finding.reason == Reason::free_form)
+    extending.observations = with_free_exponents(observations, evidence.factors.front(), settings.procedure.noise);
   FittedModel extended = decided;
   if (decision.verdict == Verdict::named) {
     report(0.92, "sizes of the named effects");
-    NamedModel named = measure_size(evidence, decided);
+    NamedModel named = measure_size(extending, decided);
     extended = std::move(named.fit);
     diagnosis.effects = std::move(named.effects);
   }
   diagnosis.extended_fit = constants_of(evidence, extended);
-  diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
+  diagnosis.residuals = residual_rows(observations, evidence.base.fit, extending.observations, extended);
   diagnosis.curves = curves_of(evidence, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named) diagnosis.gain = decision.gain;
   if (decision.verdict == Verdict::unexplained) diagnosis.partial_gain = gain_of(evidence, decided);
@@ -222,7 +227,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.cautions = cautions_of(observations, diagnosis, settings);
   diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
-  if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(evidence, diagnosis.contrasts.front());
+  if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(plain(evidence), diagnosis.contrasts.front());
   diagnosis.summary = summary_of(diagnosis);
   report(1.0, "done");
   return diagnosis;

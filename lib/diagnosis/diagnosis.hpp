@@ -42,6 +42,8 @@ enum class Reason {
   one_effect,           ///< named or ambiguous: one explains the data
   two_effects,          ///< the same: none alone, two together
   other_material,       ///< ambiguous: the base fits with constants of another material
+  factor,               ///< unexplained: free levels of factors explain the data, of which no effect is a law
+  free_form,            ///< named: the data depend on the strain rate, and no law of it fits
   nothing_visible,      ///< insufficient: no effect of usual size would have been visible
 };
 
@@ -49,7 +51,8 @@ enum class Reason {
 struct Finding {
   Reason reason = Reason::residuals_are_noise;
   std::vector<std::string> nearest = {};  ///< from at_bound to worse_unseen: the effects that come nearest
-  double value = 0.0;      ///< at_bound: size in the effect's unit; weak_signal: SNR; discrepancy: chance
+  double value = 0.0;      ///< at_bound: size in the effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
+                           ///< chance of a misfit as large as that of the nearest law
   double needed = 0.0;     ///< weak_signal, discrepancy: of a name
   std::string along = {};  ///< contrast, condition: which
 };
@@ -230,14 +233,15 @@ struct Diagnosis {
   std::string summary;               ///< for a person, a few sentences: summary_of(), and what callers add
   std::vector<NamedEffect> effects;  ///< one or two when named, else empty
   std::vector<std::vector<std::string>>
-      possible;                             ///< models that stay possible, the best first: names of their effects
-  CommonGround common_ground;               ///< of all possible models
-  std::vector<ModulusAtBound> untold;       ///< with Reason::other_material: where specimens of these would tell
-  std::vector<CandidateEffect> candidates;  ///< of all known effects, in the order of material::effect_library()
-  std::vector<Contrast> contrasts;          ///< strongest first
-  RowsOf loudest;                           ///< whose residuals are largest against their noise
-  std::optional<Gain> gain;                 ///< of the named model
-  std::optional<Gain> partial_gain;         ///< of the effect that comes nearest, when unexplained
+      possible;                                   ///< models that stay possible, the best first: names of their effects
+  CommonGround common_ground;                     ///< of all possible models
+  std::vector<ModulusAtBound> untold;             ///< with Reason::other_material: where specimens of these would tell
+  std::vector<std::vector<std::string>> factors;  ///< least sets of conditions whose free levels make the base fit
+  std::vector<CandidateEffect> candidates;        ///< of all known effects, in the order of material::effect_library()
+  std::vector<Contrast> contrasts;                ///< strongest first
+  RowsOf loudest;                                 ///< whose residuals are largest against their noise
+  std::optional<Gain> gain;                       ///< of the named model
+  std::optional<Gain> partial_gain;               ///< of the effect that comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
   double p_misfit = 1.0;           ///< omnibus: chance of a base misfit as large
   double p_outside = 1.0;          ///< chance that an unmodelled cause would give a name as surely; 1 when no name was

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "diagnosis/joint_fits.hpp"
+#include "diagnosis/scatter.hpp"
 #include "diagnosis/shared_discretisation.hpp"
 
 namespace nacre::diagnosis {
@@ -103,27 +104,10 @@ struct SizeInterval {
   double low = 0.0, middle = 0.0, high = 0.0;
 };
 
-/// 95 % quantile of Student's t over the normal one (Abramowitz and Stegun 26.7.5; within 0.3 % from 2 degrees of
-/// freedom on). Without replicates: a little.
-double student(int dof) {
-  if (dof <= 0) return 2.0 / 1.645;
-  const double v = 1.0 / dof;
-  return 1.0 + v * (0.926 + v * (0.863 + v * (0.598 + v * 0.264)));
-}
-
-/// Degrees of freedom behind the scatter of those rows that determine a coordinate most.
-int dof_behind(const Observations& observations, const FittedModel& fit, int coordinate) {
-  const Eigen::VectorXd variances = observations.covariance().diagonal();
-  std::vector<double> information(observations.scatter.size());
-  for (int i = 0; i < observations.size(); ++i)
-    information[observations.rows[i].scatter] += std::pow(fit.jacobian(i, coordinate), 2) / variances[i];
-  const ReplicateScatter& most = observations.scatter[std::ranges::max_element(information) - information.begin()];
-  return most.dof > 0 ? most.dof + most.assumed_dof : 0;
-}
-
 SizeInterval by_likelihood(const Evidence& evidence, const FittedModel& named, int i) {
   const SizeProfile profile = profile_of(evidence, named, i);
-  const double middle = quantile_of(profile, 0.5), widened = student(dof_behind(evidence.observations, named, i));
+  const double middle = quantile_of(profile, 0.5),
+               widened = student(dof_behind(evidence.observations, named.jacobian.col(i)));
   return {middle + widened * (quantile_of(profile, 0.05) - middle), middle,
           middle + widened * (quantile_of(profile, 0.95) - middle)};
 }
@@ -131,8 +115,8 @@ SizeInterval by_likelihood(const Evidence& evidence, const FittedModel& named, i
 SizeInterval by_covariance(const Evidence& evidence, FittedModel named, int i) {
   named.free_all();
   const Whitener whitener(evidence.observations.covariance());
-  const double half =
-      1.645 * student(dof_behind(evidence.observations, named, i)) * std::sqrt(named.variance(i, whitener));
+  const double half = 1.645 * student(dof_behind(evidence.observations, named.jacobian.col(i))) *
+                      std::sqrt(named.variance(i, whitener));
   return {named.u[i] - half, named.u[i], named.u[i] + half};
 }
 
@@ -167,7 +151,8 @@ std::vector<FittedNumber> derived_numbers(const Evidence& evidence, FittedModel 
     double variance = 0.0;
     for (Eigen::Index j = 0; j < along.size(); ++j)
       if (std::abs(along[j]) > kOpen * slope.norm()) variance += std::pow(along[j] / columns.singularValues()[j], 2);
-    const double half = 1.645 * student(dof_behind(evidence.observations, named, first)) * std::sqrt(variance);
+    const double half =
+        1.645 * student(dof_behind(evidence.observations, named.jacobian.col(first))) * std::sqrt(variance);
     numbers.push_back({value, value - half, value + half});
   }
   return numbers;

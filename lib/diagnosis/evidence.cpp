@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/factors.hpp"
 #include "diagnosis/joint_fits.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/pairs.hpp"
@@ -85,6 +86,25 @@ Evidence with_draws(Evidence evidence) {
   return evidence;
 }
 
+/// With the factors that homogeneous specimens depend on; those that no effect knows get free levels, so that effects
+/// are judged at equal temperature, humidity, age and machine.
+Evidence with_factors(Evidence evidence, const Data& data) {
+  const DiagnosisSettings& settings = evidence.settings;
+  evidence.p_misfit = chance_of_base_misfit(evidence);
+  if (evidence.p_misfit >= settings.procedure.levels.unexplained) return evidence;
+  evidence.factors = factors_at_work(evidence.observations, evidence.base.fit, settings);
+  if (evidence.factors.empty()) return evidence;
+  std::vector<std::string> without_law = evidence.factors.front();
+  std::erase_if(without_law, [](const std::string& factor) { return !is_without_law(factor); });
+  if (without_law.empty()) return evidence;
+  Data levelled = data;
+  levelled.observations.levels = level_directions(data.observations, without_law, settings.procedure.noise.level_sd);
+  Evidence within = with_draws(fitted(levelled, settings));
+  within.factors = evidence.factors;
+  within.without_levels = std::make_shared<const Evidence>(std::move(evidence));
+  return within;
+}
+
 /// With the chances of the single effects: of their drops, and of their misfits where a name is in question.
 Evidence with_chances(Evidence evidence) {
   evidence.p_misfit = chance_of_base_misfit(evidence);
@@ -109,6 +129,10 @@ bool needs_pairs(const Evidence& evidence) {
 
 }  // namespace
 
+const Evidence& plain(const Evidence& evidence) {
+  return evidence.without_levels ? *evidence.without_levels : evidence;
+}
+
 std::size_t best_single(const Evidence& evidence) {
   const auto best = std::ranges::min_element(evidence.singles, {}, &FittedModel::chi2);
   return static_cast<std::size_t>(best - evidence.singles.begin());
@@ -122,7 +146,7 @@ bool is_noticed(const Evidence& evidence) {
 bool is_usable(const FittedModel& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
 Evidence gather_evidence(const Data& data, const DiagnosisSettings& settings) {
-  Evidence evidence = with_chances(with_draws(fitted(data, settings)));
+  Evidence evidence = with_chances(with_factors(with_draws(fitted(data, settings)), data));
   std::vector<PairsOnSingle> built;
   while (needs_pairs(evidence)) {
     report(settings, 0.9, "fitting pairs of effects");

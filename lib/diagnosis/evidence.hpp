@@ -3,6 +3,7 @@
 // the chances of what was found. Chi squared r' C^-1 r with the covariance C of scatter, discretisation floor and
 // emulator.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Evidence : Data {
   Anchor base = {};
   std::vector<FittedModel> singles = {};        ///< one per effect
   std::vector<ModelPoint> discretisation = {};  ///< models whose change on a refined mesh gives the shared directions
+  std::vector<std::vector<std::string>> factors = {};   ///< least sets whose free levels make the base fit
+  std::shared_ptr<const Evidence> without_levels = {};  ///< base alone; nothing: the observations have no free levels
   DrawStatistics base_statistics = {};
   std::vector<DrawStatistics> base_draws = {};
   double p_misfit = 1.0;                   ///< chance of a misfit as large as the base's when it is true
@@ -33,11 +36,14 @@ struct Evidence : Data {
   std::vector<double> p_pair_fit = {};  ///< per pair
 };
 
-/// Fits base and single effects and bootstraps the base. With a floor that has a common
-/// direction the fits are done first with independent layouts and again with the directions along which a refined mesh
-/// moves these models. Where an effect improves the fit beyond chance, the misfit of each is tested; where none fits,
-/// pairs are built on the best.
+/// Fits base and single effects and bootstraps the base. With a floor that has a common direction the fits are done
+/// first with independent layouts and again with the directions along which a refined mesh moves these models. Where
+/// the base misfits along a factor that no effect knows, all is done again with free levels of it. Where an effect
+/// improves the fit beyond chance, the misfit of each is tested; where none fits, pairs are built on the best.
 Evidence gather_evidence(const Data& data, const DiagnosisSettings& settings);
+
+/// The base as it is, before any factor got free levels.
+const Evidence& plain(const Evidence& evidence);
 
 /// The effect of the least chi squared; at least one.
 std::size_t best_single(const Evidence& evidence);

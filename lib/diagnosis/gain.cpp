@@ -29,7 +29,7 @@ Eigen::VectorXd predicted_from(const Observations& observations, const FittedMod
                                const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
   const Eigen::VectorXd residuals = observations.values - model;
-  return model + observations.shared_discretisation(residuals(rows), rows);
+  return model + observations.expected_shared(residuals(rows), rows);
 }
 
 /// Whether the overall figure is that of coupons: there are no layouts, or none of these effects acts on the tests of
@@ -76,10 +76,11 @@ struct HeldOut {
   Eigen::VectorXd before, after;
 };
 
-HeldOut hold_out(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                 double least_drop, int folds, const std::vector<std::vector<Eigen::Index>>& designs) {
+HeldOut hold_out(const Observations& observations, const Observations& extended, const FittedModel& base,
+                 const std::vector<FittedModel>& models, double least_drop, int folds,
+                 const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
-  const Eigen::MatrixXd covariance = observations.covariance();
+  const Eigen::MatrixXd covariance = observations.covariance(), of_extended = extended.covariance();
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
   for (int fold = 0; fold < folds; ++fold) {
     std::vector<bool> held(y.size(), false);
@@ -88,8 +89,8 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
     std::vector<Eigen::Index> train;
     for (Eigen::Index row = 0; row < y.size(); ++row)
       if (!held[row]) train.push_back(row);
-    const Whitener whitener(covariance(train, train));
-    const LinearRefit plain = refit(base, train, y, whitener);
+    const LinearRefit plain = refit(base, train, y, Whitener(covariance(train, train)));
+    const Whitener whitener(of_extended(train, train));
     const FittedModel* chosen = &base;
     LinearRefit chosen_refit = plain;
     for (const FittedModel& model : models) {
@@ -97,7 +98,7 @@ HeldOut hold_out(const Observations& observations, const FittedModel& base, cons
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - least_drop) chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
-                          after = y - predicted_from(observations, *chosen, chosen_refit, train);
+                          after = y - predicted_from(extended, *chosen, chosen_refit, train);
     for (Eigen::Index row = 0; row < y.size(); ++row)
       if (held[row]) result.before[row] = before[row], result.after[row] = after[row];
   }
@@ -215,9 +216,10 @@ Gain gain_of(const Evidence& evidence, const FittedModel& decided) {
 
 Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
                    const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
-                   std::uint64_t seed) {
+                   std::uint64_t seed, const Observations* extended) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
-  const HeldOut held = hold_out(observations, base, models, least_drop, rules.folds, designs);
+  const HeldOut held = hold_out(observations, extended != nullptr ? *extended : observations, base, models, least_drop,
+                                rules.folds, designs);
   Gain gain;
   gain.of_coupons = coupons_count(observations, effects);
   int rows = 0;

@@ -18,9 +18,10 @@ Gain gain_of(const Evidence& evidence, const FittedModel& decided);
 /// folds of whole layouts (twins stay together) and of coupons of one material at one rate, selection repeated in each
 /// fold among `models`, linear refits around the full fits. The overall figure is that of moduli and toughness of
 /// layouts, or of slopes and stresses of coupons where none of `effects` acts on layouts. A model that lowers chi2 by
-/// less than `least_drop` is not preferred to the base. 90 % interval by bootstrap over designs.
+/// less than `least_drop` is not preferred to the base. 90 % interval by bootstrap over designs. `extended`: the
+/// observations with what the models leave free; nothing: the same ones.
 Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
                    const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
-                   std::uint64_t seed);
+                   std::uint64_t seed, const Observations* extended = nullptr);
 
 }  // namespace nacre::diagnosis

@@ -183,6 +183,7 @@ std::string to_json(const Diagnosis& d) {
   const ordered_json document = {{"verdict", to_string(d.verdict)},
                                  {"summary", d.summary},
                                  {"effects", array_of(d.effects)},
+                                 {"factors", d.factors},
                                  {"candidates", array_of(d.candidates)},
                                  {"contrasts", array_of(d.contrasts)},
                                  {"loudest", in_words(d.loudest)},

@@ -62,14 +62,16 @@ double chance_of_base_misfit(const Evidence& evidence) {
 }
 
 double chance_of_misfit(const Evidence& evidence, const FittedModel& fit) {
-  const Anchor anchor{
-      fit, {}, contrast_directions(evidence.observations, fit.predicted), parts_of_rows(evidence.observations)};
+  return chance_of_misfit(evidence.observations, fit, evidence.settings);
+}
+
+double chance_of_misfit(const Observations& observations, const FittedModel& fit, const DiagnosisSettings& settings) {
+  const Anchor anchor{fit, {}, contrast_directions(observations, fit.predicted), parts_of_rows(observations)};
+  const double imitated = settings.procedure.names.imitated;
   const std::vector<DrawStatistics> draws =
-      bootstrap_anchor(anchor, evidence.observations, evidence.settings.procedure.names.imitated,
-                       evidence.settings.bootstraps, evidence.settings.seed + 1);
+      bootstrap_anchor(anchor, observations, imitated, settings.bootstraps, settings.seed + 1);
   const DrawStatistics own =
-      anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())},
-                        evidence.settings.procedure.names.imitated);
+      anchor_statistics(anchor, {observations.values, Whitener(observations.covariance())}, imitated);
   return of_both_tests(draws, own);
 }
 

@@ -27,5 +27,7 @@ double chance_of_base_misfit(const Evidence& evidence);
 
 /// The same of another model.
 double chance_of_misfit(const Evidence& evidence, const FittedModel& fit);
+/// The same on other observations of the model's rows.
+double chance_of_misfit(const Observations& observations, const FittedModel& fit, const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

@@ -182,16 +182,21 @@ bool has_constants_of_both(const std::vector<Observation>& groups) {
          any([](const Observation& g) { return g.design.mixture() != nullptr; });
 }
 
-/// Scatter of every test, and of each material's coupons where their replicates determine it.
+/// Scatter of every test, and of each material's coupons where their replicates determine it; of its moduli where
+/// materials scatter differently.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups,
                  const NoiseRules& rules) {
   for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t), rules);
-  std::map<std::string, std::size_t> own;
+  const bool moduli_by_material = materials_scatter_differently(groups, rules);
+  std::map<std::pair<TestKind, std::string>, std::size_t> own;
   for (DataRow& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
-    if (row.group < 0 || row.test != TestKind::tensile) continue;
-    const std::string material = observations.groups[row.group].material();
-    const auto [place, unknown] = own.emplace(material, row.scatter);
+    if (row.group < 0) continue;
+    const Observation& group = observations.groups[row.group];
+    const bool is_own_modulus = row.test == TestKind::modulus && group.design.mixture() && moduli_by_material;
+    if (row.test != TestKind::tensile && !is_own_modulus) continue;
+    const std::string material = group.material();
+    const auto [place, unknown] = own.emplace(std::pair(row.test, material), row.scatter);
     if (unknown) {
       ReplicateScatter scatter = pooled_scatter(groups, row.test, rules, material);
       if (scatter.dof >= rules.own_dof) {
@@ -273,23 +278,33 @@ CovarianceParts Observations::covariance_parts() const {
       parts.scatter(i, j) = parts.scatter(j, i) = both.scatter;
     }
   }
-  if (has_shared_discretisation()) parts.fixed += discretisation_shared * discretisation_shared.transpose();
+  const Eigen::MatrixXd shared = shared_directions();
+  parts.fixed += shared * shared.transpose();
   if (emulator_variance.size() == size()) parts.fixed.diagonal() += emulator_variance;
   return parts;
 }
 
 Eigen::VectorXd Observations::own_variances() const {
-  Eigen::VectorXd variances = covariance().diagonal();
-  if (has_shared_discretisation()) variances -= discretisation_shared.rowwise().squaredNorm();
-  return variances;
+  return covariance().diagonal() - shared_directions().rowwise().squaredNorm();
 }
 
-Eigen::VectorXd Observations::shared_discretisation(const Eigen::VectorXd& residuals_at_rows,
-                                                    const std::vector<Eigen::Index>& at) const {
-  if (!has_shared_discretisation()) return Eigen::VectorXd::Zero(size());
+Eigen::MatrixXd Observations::shared_directions() const {
+  Eigen::MatrixXd directions(size(), 0);
+  for (const Eigen::MatrixXd* own : {&discretisation_shared, &levels}) {
+    if (own->rows() != size()) continue;
+    directions.conservativeResize(Eigen::NoChange, directions.cols() + own->cols());
+    directions.rightCols(own->cols()) = *own;
+  }
+  return directions;
+}
+
+Eigen::VectorXd Observations::expected_shared(const Eigen::VectorXd& residuals_at_rows,
+                                              const std::vector<Eigen::Index>& at) const {
+  const Eigen::MatrixXd shared = shared_directions();
+  if (shared.cols() == 0) return Eigen::VectorXd::Zero(size());
   const Eigen::MatrixXd all = covariance();
   const Eigen::VectorXd weights = all(at, at).llt().solve(residuals_at_rows);
-  return discretisation_shared * (discretisation_shared(at, Eigen::all).transpose() * weights);
+  return shared * (shared(at, Eigen::all).transpose() * weights);
 }
 
 Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_discretisation_sd,

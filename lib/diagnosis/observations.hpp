@@ -94,6 +94,7 @@ struct ReplicateScatter {
   Eigen::MatrixXd covariance;  ///< features x features
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
   int assumed_dof = 0;         ///< further ones that are assumed
+  int worth = 0;               ///< of a scatter without replicates: degrees of freedom that it is worth
   double piece_share = 0.0;    ///< of the variance, what a piece keeps from one group to another that it is also in
 };
 
@@ -126,6 +127,7 @@ struct Observations {
   FractureDiscretisation fracture_discretisation;  ///< the same of the features of a fracture test
   Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
                                                    ///< standard deviation; may be empty
+  Eigen::MatrixXd levels;                          ///< rows x free levels of factors (factors.hpp), the same
   Eigen::VectorXd emulator_variance;               ///< per row; empty: none
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
@@ -135,6 +137,8 @@ struct Observations {
   const Observation& group_of(int row) const { return groups[rows[row].group]; }
   bool has(tester::TestKind test) const;
   bool has_shared_discretisation() const { return discretisation_shared.rows() == size(); }
+  /// Directions along which all rows go together: the shared discretisation error, and free levels.
+  Eigen::MatrixXd shared_directions() const;
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
   int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
@@ -149,13 +153,11 @@ struct Observations {
     const CovarianceParts parts = covariance_parts();
     return parts.fixed + parts.scatter;
   }
-  /// Variances of the rows but for the discretisation error that they share, which predictions contain
-  /// (shared_discretisation()).
+  /// Variances of the rows but for what they share, which predictions contain (expected_shared()).
   Eigen::VectorXd own_variances() const;
-  /// The expected discretisation error along the shared directions, given residuals (measured - predicted) at `rows`;
-  /// for all rows.
-  Eigen::VectorXd shared_discretisation(const Eigen::VectorXd& residuals_at_rows,
-                                        const std::vector<Eigen::Index>& rows) const;
+  /// The expected error along the shared directions, given residuals (measured - predicted) at `rows`; for all rows.
+  Eigen::VectorXd expected_shared(const Eigen::VectorXd& residuals_at_rows,
+                                  const std::vector<Eigen::Index>& rows) const;
 };
 
 /// Groups the valid specimens: moduli and fracture tests of layouts; of homogeneous ones moduli, and coupons pulled

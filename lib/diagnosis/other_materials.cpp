@@ -35,7 +35,8 @@ bool is_told_by_own_specimens(const Observations& observations, int material) {
 }
 
 std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
-                                           const ConstantRules& rules) {
+                                           ConstantRules rules) {
+  rules.widening = rules.other_material;
   std::vector<OtherMaterial> found;
   for (int material = 0; material < static_cast<int>(kConstantMaterials.size()); ++material) {
     const std::optional<double> log_e = log_modulus(observations, material);

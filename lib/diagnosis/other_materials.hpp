@@ -12,9 +12,9 @@ namespace nacre::diagnosis {
 bool is_told_by_own_specimens(const Observations& observations, int material);
 
 /// Base materials whose E by their own specimens lies outside their range in Table A.1 (or that of `ranges`), widened
-/// three-fold (CoordinateMap).
+/// two-fold: within the bounds of the search (CoordinateMap), but near enough for these to matter.
 std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
-                                           const ConstantRules& rules);
+                                           ConstantRules rules);
 
 /// `ranges` with those of E of these materials stretched over what was measured: the inks stay possible, where the
 /// machine is wrong.

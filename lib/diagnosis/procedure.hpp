@@ -43,19 +43,24 @@ struct NoiseRules {
   int fewest_for_history = 6;      ///< specimens behind a change over batches or print order
   double constant_sd = 0.11;       ///< of log(E in layouts / E of its own specimens): +-20 % of Table A.2 as 90 %
   double piece_sd = 0.1;           ///< between pieces that were each tested under several conditions, none replicated
+  double unlike_scatter = 0.01;    ///< chance below which materials of modulus tests scatter by their own replicates
+  int assumed_worth = 4;           ///< degrees of freedom that an assumed scatter is worth: it may be twice as large
+  double exponent_sd = 0.05;       ///< of a free exponent of the rate where no material has two; polymers have 0 to 0.5
+  double level_sd = 100.0;         ///< of a free level, log units: so wide that the data alone decide
   static constexpr void fields(auto& field, auto& m);
 };
 
 /// Base constants as coordinates of a fit.
 struct ConstantRules {
-  double widening = 3.0;       ///< of the ranges of theta and the bulk constants about their middle
-  double least_ratio = 0.02;   ///< Poisson's, and
-  double most_ratio = 0.495;   ///< the largest
-  double prior_sd = 0.5;       ///< of theta and bulk constants about the middle, in widths of the widened range
-  double eta_reach = 1.5;      ///< eta is searched so far from the centre, in log units: the emulator knows no more
-  double eta_sd = 0.7;         ///< of its prior, in log units
-  double start_margin = 0.02;  ///< of an initial guess from its bounds, in coordinates
-  double at_bound = 1e-3;      ///< a constant as near to its bound is at it, in coordinates
+  double widening = 3.0;        ///< of the ranges of theta and the bulk constants about their middle
+  double other_material = 2.0;  ///< the same: beyond it own specimens are of another material, with ranges about them
+  double least_ratio = 0.02;    ///< Poisson's, and
+  double most_ratio = 0.495;    ///< the largest
+  double prior_sd = 0.5;        ///< of theta and bulk constants about the middle, in widths of the widened range
+  double eta_reach = 1.5;       ///< eta is searched so far from the centre, in log units: the emulator knows no more
+  double eta_sd = 0.7;          ///< of its prior, in log units
+  double start_margin = 0.02;   ///< of an initial guess from its bounds, in coordinates
+  double at_bound = 1e-3;       ///< a constant as near to its bound is at it, in coordinates
   static constexpr void fields(auto& field, auto& m);
 };
 

@@ -33,10 +33,15 @@ constexpr void NoiseRules::fields(auto& field, auto& m) {
   field("fewest_for_history", m.fewest_for_history);
   field("constant_sd", m.constant_sd);
   field("piece_sd", m.piece_sd);
+  field("unlike_scatter", m.unlike_scatter);
+  field("assumed_worth", m.assumed_worth);
+  field("exponent_sd", m.exponent_sd);
+  field("level_sd", m.level_sd);
 }
 
 constexpr void ConstantRules::fields(auto& field, auto& m) {
   field("widening", m.widening);
+  field("other_material", m.other_material);
   field("least_ratio", m.least_ratio);
   field("most_ratio", m.most_ratio);
   field("prior_sd", m.prior_sd);

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "measurement/piece.hpp"
+#include "measurement/surroundings.hpp"
+#include "sysid/likelihood.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -160,15 +162,68 @@ bool pieces_return(const std::vector<std::vector<Measured>>& groups, tester::Tes
   return false;
 }
 
-/// Without replicates. Where one piece stands for a material at all conditions, how it differs from the next piece is
-/// assumed too, and what changes from one of its tests to the next is known as well as a single test.
+/// Variance of log E about lines over the logarithm of the rate, within each material, or each piece, under otherwise
+/// equal conditions, and its degrees of freedom. What is no line counts as scatter: nothing tells them apart.
+std::pair<double, int> variance_about_lines(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
+                                            bool of_pieces) {
+  std::map<std::string, std::vector<std::pair<double, double>>> points;
+  for (const auto& group : groups) {
+    for (const Measured& each : group) {
+      const measurement::SpecimenRecord& specimen = *each.specimen;
+      const auto& log_e = value_of(each.features, Feature::log_modulus);
+      if (specimen.test != test || !specimen.design.mixture() || !log_e) continue;
+      const tester::TestConditions& c = specimen.conditions;
+      const std::string key = fmt::format("{} {} {} {} {}", specimen.design.name(), c.orientation_deg, c.thickness_mm,
+                                          measurement::nominal_surroundings(measurement::surroundings_of(specimen)),
+                                          of_pieces ? measurement::piece_of(specimen) : "");
+      points[key].emplace_back(std::log(c.strain_rate_per_s), *log_e);
+    }
+  }
+  double squares = 0.0;
+  int dof = 0;
+  for (const auto& [key, own] : points) {
+    const auto count = static_cast<Eigen::Index>(own.size());
+    if (count < 3) continue;
+    Eigen::MatrixXd line(count, 2);
+    Eigen::VectorXd log_e(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      line.row(i) << 1.0, own[i].first;
+      log_e[i] = own[i].second;
+    }
+    squares += (log_e - line * line.colPivHouseholderQr().solve(log_e)).squaredNorm();
+    dof += static_cast<int>(count) - 2;
+  }
+  return {dof > 0 ? squares / dof : 0.0, dof};
+}
+
+bool are_all_homogeneous(const std::vector<std::vector<Measured>>& groups, tester::TestKind test) {
+  return std::ranges::all_of(groups, [test](const std::vector<Measured>& group) {
+    const measurement::SpecimenRecord& first = *group.front().specimen;
+    return first.test != test || first.design.mixture() != nullptr;
+  });
+}
+
+/// Without replicates. Of layouts the assumed scatter is known; homogeneous specimens may be of any material: theirs is
+/// an opinion worth some degrees of freedom, and no less than what their moduli show. Where one piece stands for a
+/// material at all conditions, how it differs from the next piece is assumed too, and what changes from one of its
+/// tests to the next is known as well as a single test.
 ReplicateScatter assumed_for(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
                              Eigen::MatrixXd covariance, const NoiseRules& rules) {
   ReplicateScatter scatter{std::move(covariance), 0, rules.enough_dof};
-  if (!pieces_return(groups, test)) return scatter;
-  const double times = std::pow(rules.piece_sd / rules.assumed_sd, 2);
-  scatter.covariance *= times;
-  scatter.piece_share = 1.0 - 1.0 / times;
+  const bool of_pieces = pieces_return(groups, test);
+  const double assumed = rules.assumed_sd * rules.assumed_sd;
+  double single = assumed;
+  if (are_all_homogeneous(groups, test)) {
+    scatter.worth = rules.assumed_worth;
+    const auto [about_lines, dof] = variance_about_lines(groups, test, of_pieces);
+    if (dof >= 2 && about_lines > assumed) {
+      single = about_lines;
+      scatter.worth = std::min(dof, rules.enough_dof);
+    }
+  }
+  const double all = of_pieces ? rules.piece_sd * rules.piece_sd - assumed + single : single;
+  scatter.covariance *= all / assumed;
+  scatter.piece_share = 1.0 - single / all;
   return scatter;
 }
 
@@ -265,6 +320,49 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
     scatter.covariance(f, f) = std::max(scatter.covariance(f, f), least * least);
   }
   return scatter;
+}
+
+bool materials_scatter_differently(const std::vector<std::vector<Measured>>& groups, const NoiseRules& rules) {
+  std::map<std::string, std::pair<double, int>> of_material;  // sum of squares, degrees of freedom
+  for (const auto& group : groups) {
+    const measurement::SpecimenRecord& first = *group.front().specimen;
+    if (first.test != tester::TestKind::modulus || !first.design.mixture()) continue;
+    auto& [squares, dof] = of_material[first.design.name()];
+    for (const Deviation& each : deviations_of({group}, tester::TestKind::modulus))
+      squares += std::pow(value_of(each.from_mean, Feature::log_modulus).value_or(0.0), 2);
+    dof += static_cast<int>(group.size()) - 1;
+  }
+  std::erase_if(of_material, [&](const auto& entry) { return entry.second.second < rules.own_dof; });
+  if (of_material.size() < 2) return false;
+  double squares = 0.0, logarithms = 0.0, inverse = 0.0;
+  int dof = 0;
+  for (const auto& [material, own] : of_material) {
+    const double variance = std::max(own.first / own.second, std::pow(rules.least_modulus_sd, 2));
+    squares += own.second * variance;
+    dof += own.second;
+    logarithms += own.second * std::log(variance);
+    inverse += 1.0 / own.second;
+  }
+  const int differences = static_cast<int>(of_material.size()) - 1;
+  const double correction = 1.0 + (inverse - 1.0 / dof) / (3.0 * differences);
+  const double bartlett = (dof * std::log(squares / dof) - logarithms) / correction;
+  constexpr double kMany = 1e6;  // F of so many below is chi squared
+  return sysid::f_tail(bartlett / differences, differences, kMany) < rules.unlike_scatter;
+}
+
+double student(int dof) {
+  if (dof <= 0) return 2.0 / 1.645;
+  const double v = 1.0 / dof;
+  return 1.0 + v * (0.926 + v * (0.863 + v * (0.598 + v * 0.264)));
+}
+
+int dof_behind(const Observations& observations, const Eigen::VectorXd& change) {
+  const Eigen::VectorXd variances = observations.covariance().diagonal();
+  std::vector<double> information(observations.scatter.size());
+  for (int i = 0; i < observations.size(); ++i)
+    information[observations.rows[i].scatter] += std::pow(change[i], 2) / variances[i];
+  const ReplicateScatter& most = observations.scatter[std::ranges::max_element(information) - information.begin()];
+  return most.dof > 0 ? most.dof + most.assumed_dof : most.worth;
 }
 
 int disconnected_batches(const std::vector<std::vector<Measured>>& groups) {

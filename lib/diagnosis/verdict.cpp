@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/name_tests.hpp"
 #include "diagnosis/rivals.hpp"
+#include "diagnosis/scatter.hpp"
 #include "diagnosis/untold_materials.hpp"
 #include "material/extensions.hpp"
 
@@ -56,13 +58,14 @@ Finding at_its_bound(const FittedModel& single) {
           .value = single.parameters.extensions.at(single.effects.front()).front()};
 }
 
-/// Whether an effect of usual size would have been visible on these specimens.
+/// Whether an effect of usual size would have been visible on these specimens, by scatter that few replicates tell.
 bool something_would_show(const Evidence& evidence) {
   const Procedure& rules = evidence.settings.procedure;
   const Whitener whitener(evidence.observations.covariance());
   return std::ranges::any_of(evidence.base.signatures, [&](const Signature& signature) {
     const Eigen::VectorXd usual = usual_change(signature, rules.fit.typical, evidence.base.fit, whitener);
-    return signature_size(evidence.base.fit, usual, whitener).projected >= rules.names.visible_signal;
+    const double needed = rules.names.visible_signal * student(dof_behind(evidence.observations, usual));
+    return signature_size(evidence.base.fit, usual, whitener).projected >= needed;
   });
 }
 
@@ -102,13 +105,82 @@ Decision decided_among_effects(const Evidence& evidence, Decision decision) {
   return settled(evidence, std::move(decision), std::move(possible), Reason::one_effect);
 }
 
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+constexpr std::string_view kStrainRate = "strain rate";
+constexpr const char* kPowerLaw = "rate_power_law";
+
+bool contains_any(const std::vector<std::vector<std::string>>& sets, std::string_view name) {
+  return std::ranges::any_of(sets, [name](const std::vector<std::string>& set) { return contains(set, name); });
+}
+
+bool is_of_rate(const FittedModel& model) {
+  return std::ranges::any_of(model.effects,
+                             [](const std::string& name) { return material::find_effect(name)->family == "rate"; });
+}
+
+/// The law of the strain rate that comes nearest: powers, of which every material at every temperature may have its
+/// own, where they act; nothing where no such effect acts.
+const FittedModel* nearest_rate_law(const Evidence& evidence) {
+  const FittedModel* nearest = nullptr;
+  for (const FittedModel& single : evidence.singles) {
+    if (single.effects.front() == kPowerLaw) return &single;
+    if (is_of_rate(single) && (nearest == nullptr || single.chi2 < nearest->chi2)) nearest = &single;
+  }
+  return nearest;
+}
+
+/// The strain rate as the cause, with the nearest law: exponents of materials and temperatures differ about its own.
+Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest, Decision decision) {
+  const Procedure& rules = evidence.settings.procedure;
+  const std::vector<std::string>& factors = evidence.factors.front();
+  const Observations levelled = with_levels_but_rate(evidence.observations, factors, rules.noise),
+                     freed = with_free_exponents(evidence.observations, factors, rules.noise);
+  const FittedModel law = fit_model(evidence.model, freed, rules.fit, nearest.effects, nearest.u);
+  decision.verdict = Verdict::named;
+  decision.partial.reset();
+  decision.possible = {law};
+  decision.gain =
+      held_out_gain(levelled, evidence.base.fit, {law}, law.effects, 0.0, rules.gain, evidence.settings.seed, &freed);
+  decision.finding = {
+      .reason = Reason::free_form, .nearest = law.effects, .value = chance_of_misfit(evidence, nearest)};
+  return decision;
+}
+
+/// What the factors at work add. The strain rate is a cause by itself, whatever its law, where nothing else explains
+/// the data, and none where another factor does as well. Its law is free where none fits, or where it predicts held-out
+/// specimens better. A base that needs free levels of a factor is not sufficient.
+Decision decided_with_factors(const Evidence& evidence, Decision decision) {
+  const bool is_named = decision.verdict == Verdict::named, is_open = decision.verdict == Verdict::unexplained;
+  const bool is_of_powers = is_named && decision.possible.front().effects == std::vector<std::string>{kPowerLaw};
+  const bool is_told = contains(told_factors(evidence.factors), kStrainRate);
+  const FittedModel* law = nearest_rate_law(evidence);
+  if ((is_open || is_of_powers) && is_told && law != nullptr &&
+      rises_with_rate(evidence.observations, evidence.factors.front())) {
+    Decision free = named_in_free_form(evidence, *law, decision);
+    if (is_open || free.gain->held_out_error_after < decision.gain->held_out_error_after) return free;
+  }
+  const bool is_green = decision.verdict == Verdict::base_sufficient || decision.verdict == Verdict::insufficient;
+  const bool is_alias =
+      is_named && is_of_rate(decision.possible.front()) && !is_told && contains_any(evidence.factors, kStrainRate);
+  if (!is_green && !is_alias) return decision;
+  decision.possible.clear();
+  decision.gain.reset();
+  decision.verdict = Verdict::unexplained;
+  decision.finding = {.reason = Reason::factor};
+  return decision;
+}
+
 }  // namespace
 
 Decision decide(const Evidence& evidence) {
   Decision decision;
-  decision.contrasts = judged_contrasts(evidence);
-  decision.loudest_part = loudest_part(evidence.base_draws, evidence.base_statistics);
+  decision.contrasts = judged_contrasts(plain(evidence));
+  decision.loudest_part = loudest_part(plain(evidence).base_draws, plain(evidence).base_statistics);
   decision = decided_among_effects(evidence, std::move(decision));
+  if (!evidence.factors.empty()) decision = decided_with_factors(evidence, std::move(decision));
   if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;
   decision.untold = untold_materials(evidence);
   if (decision.untold.empty()) return decision;

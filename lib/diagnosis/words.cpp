@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnosis/factors.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 
@@ -78,6 +79,13 @@ std::string objection_in_words(const Finding& finding) {
   }
 }
 
+/// "strain rate and temperature, or of strain rate and machine"
+std::string factors_in_words(const std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> words;
+  for (const std::vector<std::string>& factors : sets) words.push_back(fmt::format("{}", fmt::join(factors, " and ")));
+  return fmt::format("{}", fmt::join(words, ", or of "));
+}
+
 /// The step that decided.
 std::string reason_in_words(const Diagnosis& d) {
   const Finding& finding = d.finding;
@@ -106,6 +114,15 @@ std::string reason_in_words(const Diagnosis& d) {
           "needs "
           "ranges of its own, or an effect is missing",
           in_words(d.untold));
+    case Reason::factor:
+      return fmt::format("free levels of {} explain these data, and no known effect is a law of that",
+                         factors_in_words(d.factors));
+    case Reason::free_form:
+      return fmt::format(
+          "whatever the law, the data change with the strain rate where all else is equal, and free levels of {} "
+          "explain them. This law comes nearest (chance of its misfit {:.3g}); its numbers are means, about which "
+          "materials and conditions differ",
+          factors_in_words(d.factors), finding.value);
     case Reason::nothing_visible:
       return "nothing contradicts the base model, but none of the effects that act on these tests would have been "
              "visible at its usual size";
@@ -120,6 +137,16 @@ std::string models_in_words(const std::vector<std::vector<std::string>>& models)
   return text;
 }
 
+/// What else the data depend on: effects were judged where it is equal.
+std::string levels_in_words(const Diagnosis& d) {
+  if (d.factors.empty()) return "";
+  std::vector<std::string> others = d.factors.front();
+  std::erase_if(others, [](const std::string& factor) { return !is_without_law(factor); });
+  if (others.empty()) return "";
+  return fmt::format(" The data depend on {} too, of which nacre has no law: everything was judged where it is equal.",
+                     fmt::join(others, " and "));
+}
+
 std::string named_in_words(const Diagnosis& d) {
   std::string text = "The simulation lacks ";
   for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
@@ -127,7 +154,7 @@ std::string named_in_words(const Diagnosis& d) {
   if (d.possible.size() > 1)
     text += fmt::format(" Its form is open: {} explain these data equally well.", models_in_words(d.possible));
   if (d.gain) text += " " + gain_in_words(*d.gain) + choice_in_words(*d.gain);
-  return text;
+  return text + levels_in_words(d);
 }
 
 std::string unexplained_in_words(const Diagnosis& d) {

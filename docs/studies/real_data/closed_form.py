@@ -4,7 +4,8 @@
 usage: closed_form.py [SET...]
 Of each set: E as a power of the rate within every material, piece and temperature (mean exponent, and its standard
 error by the scatter between pieces or temperatures, or of the line where there is one alone); the change with
-temperature at equal frequency; machines at equal rate; blends off the line between their neighbours.
+temperature at equal frequency; machines at equal rate; blends off the line between their neighbours; errors at rates
+that are left out.
 """
 import csv
 import math
@@ -117,12 +118,34 @@ def blends(rows):
                   f" {of[middle][0] - straight:+.2f}")
 
 
+def held_out(rows):
+    """Every rate of a material, temperature and machine left out in turn: mean error of log E there by a constant and by
+    a power of the rate, drawn through the other rates."""
+    by_constant, by_power = [], []
+    for of in groups(rows, "pattern", "around", "machine").values():
+        at = {}
+        for row in of:
+            if row["rate"] == row["rate"]:
+                at.setdefault(round(math.log(row["rate"]) / math.log(1.3)), []).append(row)
+        if len(at) < 3:
+            continue
+        for left_out, tests in at.items():
+            others = [(math.log(r["rate"]), r["log_e"]) for k, g in at.items() if k != left_out for r in g]
+            slope = line(others)[0]
+            mx, my = (sum(v) / len(others) for v in zip(*others))
+            x, y = (sum(v) / len(tests) for v in zip(*((math.log(r["rate"]), r["log_e"]) for r in tests)))
+            by_constant.append(abs(y - my)), by_power.append(abs(y - my - slope * (x - mx)))
+    if by_constant:
+        constant, power = (sum(v) / len(v) for v in (by_constant, by_power))
+        print(f"  held-out rates: error of a constant {constant:.3f}, of a power {power:.3f}, {1 - power / constant:.0%} less")
+
+
 def main():
     here = pathlib.Path(__file__).resolve().parent
     for name in sys.argv[1:] or sorted(p.parent.name for p in here.glob("*/measurements.csv")):
         rows = read(here / name)
         print(f"{name}: {len(rows)} rows, {len({r['piece'] for r in rows})} pieces")
-        for part in (rates, temperatures, machines, blends):
+        for part in (rates, temperatures, machines, blends, held_out):
             part(rows)
 
 

@@ -320,14 +320,16 @@ TEST(CouponDiagnosis, ASpringBeyondItsBoundComesNearest) {
   EXPECT_NEAR(diagnosis.finding.value, 2e-9, 1e-12);
 }
 
-// Materials that respond to faster pulls, each in its own way: no contrast stands for that.
-TEST(CouponDiagnosis, AMaterialThatIsOffByItselfIsSaid) {
+// One material that responds to faster pulls: no contrast and no law of the library stands for that, but the rate does.
+TEST(CouponDiagnosis, ARateThatOneMaterialAloneFeelsIsNamedWithoutALaw) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 3, 0.01, 5);
   for (measurement::SpecimenRecord& specimen : specimens)
     if (specimen.design.name() == "soft" && specimen.conditions.strain_rate_per_s > 5e-3)
       for (double& stress : specimen.curve.stress_pa) stress *= 1.1;
   const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
-  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects.front().family, "rate");
+  EXPECT_EQ(diagnosis.finding.reason, Reason::free_form);
   EXPECT_EQ(diagnosis.loudest, (RowsOf{RowsOf::Kind::coupons, "soft"})) << diagnosis.summary;
 }
 

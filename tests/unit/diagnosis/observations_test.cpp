@@ -56,6 +56,51 @@ TEST(Observations, FewReplicatesThatAgreeExactlyAreNotBelieved) {
   EXPECT_LT(sd(5), 0.001) << "eight are enough";
 }
 
+measurement::SpecimenRecord homogeneous(double rigid_share, double rate_per_s, double modulus_pa,
+                                        const std::string& piece) {
+  measurement::SpecimenRecord record;
+  record.specimen = fmt::format("{} {} {} {}", rigid_share, rate_per_s, modulus_pa, piece);
+  record.design = pattern::Mixture{rigid_share};
+  record.conditions.strain_rate_per_s = rate_per_s;
+  record.modulus_pa = modulus_pa;
+  if (!piece.empty()) record.other_columns["sample"] = piece;
+  return record;
+}
+
+// Without replicates scatter is how moduli lie off a line over the rate; two of four degrees of freedom go with it.
+TEST(Observations, WithoutReplicatesModuliScatterAboutALineOverTheRate) {
+  const std::vector<double> off = {0.1, -0.1, -0.1, 0.1};
+  for (const std::string piece : {"", "strip"}) {
+    std::vector<measurement::SpecimenRecord> specimens;
+    for (int i = 0; i < 4; ++i)
+      specimens.push_back(homogeneous(1.0, std::pow(10.0, i - 3), 2e9 * std::exp(0.2 * i + off[i]), piece));
+    const ReplicateScatter scatter = observed(specimens).scatter[static_cast<std::size_t>(tester::TestKind::modulus)];
+    const double variance = scatter.covariance(0, 0);
+    EXPECT_EQ(scatter.dof, 0);
+    EXPECT_EQ(scatter.worth, 2);
+    EXPECT_NEAR(variance * (1.0 - scatter.piece_share), 4 * 0.01 / 2.0, 1e-9) << "of a test";
+    EXPECT_NEAR(variance - 0.02, piece.empty() ? 0.0 : 0.1 * 0.1 - 0.02 * 0.02, 1e-9) << "between pieces";
+  }
+}
+
+TEST(Observations, MaterialsScatterByThemselvesWhereTheyDiffer) {
+  for (const double soft_sd : {0.02, 0.3}) {
+    RandomStream noise(5, "test/unlike scatter");
+    std::vector<measurement::SpecimenRecord> specimens;
+    for (int i = 0; i < 8; ++i) {
+      specimens.push_back(homogeneous(0.0, 1e-3, 1e6 * std::exp(soft_sd * noise.normal()), ""));
+      specimens.push_back(homogeneous(1.0, 1e-3, 2e9 * std::exp(0.02 * noise.normal()), ""));
+    }
+    const Observations observations = observed(specimens);
+    const Eigen::VectorXd sd = observations.covariance().diagonal().cwiseSqrt();
+    ASSERT_EQ(sd.size(), 2);
+    if (soft_sd == 0.02)
+      EXPECT_NEAR(sd[0], sd[1], 1e-12) << "pooled";
+    else
+      EXPECT_GT(std::max(sd[0], sd[1]), 5.0 * std::min(sd[0], sd[1]));
+  }
+}
+
 TEST(Observations, ScatterIsThatOfTheReplicates) {
   const Observations observations = observed({pulled("a/1", 0, 2e8), pulled("a/2", 0, 2.1e8)});
   EXPECT_NEAR(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus),
@@ -305,10 +350,10 @@ TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheDiscretisation) 
 // is not.
 TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForDiscretisation) {
   const Observations observations = three_groups();
-  const Eigen::VectorXd expected = observations.shared_discretisation(Eigen::Vector2d(0.05, 0.1), {0, 1});
+  const Eigen::VectorXd expected = observations.expected_shared(Eigen::Vector2d(0.05, 0.1), {0, 1});
   EXPECT_NEAR(expected[0], 0.05, 0.001);
   EXPECT_NEAR(expected[2], -0.02, 0.001);
-  const Eigen::VectorXd across = observations.shared_discretisation(Eigen::Vector2d(0.1, -0.05), {0, 1});
+  const Eigen::VectorXd across = observations.expected_shared(Eigen::Vector2d(0.1, -0.05), {0, 1});
   EXPECT_LT(across.norm(), 1e-3);
 }
 

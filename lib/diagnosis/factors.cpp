@@ -1,0 +1,236 @@
+#include "diagnosis/factors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "base/statistics.hpp"
+#include "diagnosis/contrasts.hpp"
+#include "diagnosis/misfit.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+constexpr std::string_view kMaterial = "material";
+/// Every specimen has a place of its own in it: a trend, and no level each.
+constexpr std::string_view kPrintOrder = "print order";
+constexpr std::string_view kRate = "strain rate";
+
+/// The value of a factor as a name. Surroundings are equal within what no laboratory holds.
+std::string value_of(const Observation& group, std::string_view factor) {
+  if (factor == kMaterial) return group.material();
+  measurement::Surroundings only;
+  if (factor == "temperature") only.temperature_c = group.surroundings.temperature_c;
+  if (factor == "humidity") only.humidity_pct = group.surroundings.humidity_pct;
+  if (factor == "age") only.age_days = group.surroundings.age_days;
+  if (only != measurement::Surroundings{}) return measurement::nominal_surroundings(only);
+  static const std::vector<Descriptor> all = descriptors();
+  return fmt::format("{:.9g}", std::ranges::find(all, factor, &Descriptor::name)->of(group));
+}
+
+/// Values of several factors as one name.
+std::string values_of(const Observation& group, const std::vector<std::string>& factors) {
+  std::string values;
+  for (const std::string& factor : factors) values += value_of(group, factor) + '\n';
+  return values;
+}
+
+bool are_homogeneous(const std::vector<Observation>& groups) {
+  return std::ranges::all_of(groups, [](const Observation& group) {
+    return group.design.mixture() != nullptr && group.test != tester::TestKind::toughness;
+  });
+}
+
+/// How many values a factor has where it varies most: within one material, or over the materials.
+std::size_t most_values(const Observations& observations, const std::string& factor) {
+  std::map<std::string, std::set<std::string>> values;
+  for (const Observation& group : observations.groups)
+    values[factor == kMaterial ? "" : group.material()].insert(value_of(group, factor));
+  std::size_t most = 0;
+  for (const auto& [material, own] : values) most = std::max(most, own.size());
+  return most;
+}
+
+/// Rows of means by test, feature, material (all where "material" is a factor) and the values of the factors.
+using Cells = std::map<std::string, std::vector<Eigen::Index>>;
+std::map<std::string, Cells> cells_of(const Observations& observations, const std::vector<std::string>& factors) {
+  const bool over_materials = std::ranges::find(factors, kMaterial) != factors.end();
+  std::map<std::string, Cells> cells;
+  for (int i = 0; i < observations.size(); ++i) {
+    const DataRow& row = observations.rows[i];
+    if (row.kind != RowKind::mean) continue;
+    const Observation& group = observations.group_of(i);
+    const std::string whole = fmt::format("{} {} {} {}", static_cast<int>(row.test), to_string(row.feature),
+                                          group.unloaded, over_materials ? "" : group.material());
+    cells[whole][values_of(group, factors)].push_back(i);
+  }
+  return cells;
+}
+
+/// All sets of so many of these factors, in their order.
+std::vector<std::vector<std::string>> sets_of(const std::vector<std::string>& factors, std::size_t size) {
+  std::vector<bool> chosen(factors.size(), false);
+  std::fill_n(chosen.begin(), size, true);
+  std::vector<std::vector<std::string>> sets;
+  do {
+    sets.emplace_back();
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      if (chosen[i]) sets.back().push_back(factors[i]);
+  } while (std::prev_permutation(chosen.begin(), chosen.end()));
+  return sets;
+}
+
+/// The columns, with the rest of each row's mean over `rows` taken off.
+void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows) {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(columns.rows());
+  column(rows) = values(rows).array() - values(rows).mean();
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+  columns.rightCols(1) = column;
+}
+
+/// Logarithms of the rate of stiffness and stresses, centred within each material under equal values of the factors
+/// other than the rate: a column for each of these.
+Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::vector<std::string> factors) {
+  std::erase(factors, kRate);
+  if (std::ranges::find(factors, kMaterial) == factors.end()) factors.emplace_back(kMaterial);
+  Eigen::VectorXd log_rate = Eigen::VectorXd::Zero(observations.size());
+  for (int i = 0; i < observations.size(); ++i)
+    if (observations.rows[i].kind == RowKind::mean)
+      log_rate[i] = std::log(observations.group_of(i).conditions.strain_rate_per_s);
+  Eigen::MatrixXd columns(observations.size(), 0);
+  for (const auto& [whole, cells] : cells_of(observations, factors)) {
+    for (const auto& [values, rows] : cells) {
+      const Feature feature = observations.rows[rows.front()].feature;
+      if (feature == Feature::log_modulus || is_curve_stress(feature)) append_centred(columns, log_rate, rows);
+    }
+  }
+  return columns;
+}
+
+/// How exponents differ between conditions of one material: standard deviation of the slopes along these columns,
+/// pooled over materials; nothing where no material has two.
+std::optional<double> exponent_scatter(const Observations& observations, const Eigen::MatrixXd& log_rates) {
+  std::map<std::string, std::vector<double>> slopes;
+  for (Eigen::Index k = 0; k < log_rates.cols(); ++k) {
+    const double length = log_rates.col(k).squaredNorm();
+    Eigen::Index row = 0;
+    if (length == 0.0) continue;
+    log_rates.col(k).cwiseAbs().maxCoeff(&row);
+    slopes[observations.group_of(static_cast<int>(row)).material()].push_back(
+        log_rates.col(k).dot(observations.values) / length);
+  }
+  double squares = 0.0, freedom = 0.0;
+  for (const auto& [material, own] : slopes) {
+    squares += std::pow(standard_deviation(own), 2) * (static_cast<double>(own.size()) - 1.0);
+    freedom += static_cast<double>(own.size()) - 1.0;
+  }
+  if (freedom == 0.0) return std::nullopt;
+  return std::sqrt(squares / freedom);
+}
+
+/// Of rows where the print order tells one: a trend over it, one long from first to last.
+Eigen::VectorXd trend_over_order(const Observations& observations) {
+  Eigen::VectorXd order = Eigen::VectorXd::Zero(observations.size());
+  double last = 1.0;
+  for (int i = 0; i < observations.size(); ++i) {
+    if (observations.rows[i].kind != RowKind::mean) continue;
+    order[i] = observations.group_of(i).print_order;
+    last = std::max(last, order[i]);
+  }
+  return order / last;
+}
+
+}  // namespace
+
+std::vector<std::string> varying_factors(const Observations& observations) {
+  if (observations.groups.empty() || !are_homogeneous(observations.groups)) return {};
+  std::vector<std::string> factors;
+  for (const Descriptor& descriptor : descriptors())
+    if (is_condition(descriptor.name) && most_values(observations, descriptor.name) > 1)
+      factors.push_back(descriptor.name);
+  constexpr std::size_t kConstants = 2;  // E of rigid and soft: the base fits any two materials
+  const std::string material(kMaterial);
+  if (most_values(observations, material) > kConstants) factors.push_back(material);
+  return factors;
+}
+
+Eigen::MatrixXd level_directions(const Observations& observations, const std::vector<std::string>& factors, double sd) {
+  Eigen::MatrixXd directions(observations.size(), 0);
+  std::vector<std::string> levelled = factors;
+  const bool over_order = std::erase(levelled, kPrintOrder) > 0;
+  const Eigen::VectorXd order = trend_over_order(observations);
+  for (const auto& [whole, cells] : cells_of(observations, levelled)) {
+    std::vector<Eigen::Index> all;
+    for (const auto& [values, rows] : cells) all.insert(all.end(), rows.begin(), rows.end());
+    if (over_order) append_centred(directions, sd * order, all);
+    if (cells.size() < 2) continue;
+    for (const auto& [values, rows] : cells) {
+      Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
+      level(rows).setConstant(sd);
+      append_centred(directions, level, all);
+    }
+  }
+  return directions;
+}
+
+std::vector<std::vector<std::string>> factors_at_work(const Observations& observations, const FittedModel& base,
+                                                      const DiagnosisSettings& settings) {
+  const std::vector<std::string> varying = varying_factors(observations);
+  const Procedure& rules = settings.procedure;
+  for (std::size_t size = 0; size <= varying.size(); ++size) {
+    std::vector<std::vector<std::string>> least;
+    for (const std::vector<std::string>& factors : sets_of(varying, size)) {
+      Observations with_levels = observations;
+      with_levels.levels = level_directions(observations, factors, rules.noise.level_sd);
+      if (chance_of_misfit(with_levels, base, settings) >= rules.levels.unexplained) least.push_back(factors);
+    }
+    if (least.empty()) continue;
+    return size == 0 ? std::vector<std::vector<std::string>>{} : least;
+  }
+  return {};
+}
+
+std::vector<std::string> told_factors(const std::vector<std::vector<std::string>>& sets) {
+  if (sets.empty()) return {};
+  std::vector<std::string> told = sets.front();
+  std::erase_if(told, [&](const std::string& factor) {
+    return std::ranges::any_of(
+        sets, [&](const std::vector<std::string>& other) { return std::ranges::find(other, factor) == other.end(); });
+  });
+  return told;
+}
+
+bool is_without_law(const std::string& factor) {
+  constexpr std::array<std::string_view, 4> kWithoutLaw = {"temperature", "humidity", "age", "machine"};
+  return std::ranges::find(kWithoutLaw, factor) != kWithoutLaw.end();
+}
+
+Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
+                                  const NoiseRules& rules) {
+  std::erase(factors, kRate);
+  const std::string material(kMaterial);
+  const auto has_material = [&](const std::vector<std::string>& of) { return std::ranges::count(of, material) > 0; };
+  if (!has_material(factors) && has_material(varying_factors(observations))) factors.push_back(material);
+  observations.levels = level_directions(observations, factors, rules.level_sd);
+  return observations;
+}
+
+Observations with_free_exponents(Observations observations, const std::vector<std::string>& factors,
+                                 const NoiseRules& rules) {
+  const Eigen::MatrixXd log_rates = log_rates_within_others(observations, factors);
+  observations = with_levels_but_rate(std::move(observations), factors, rules);
+  observations.levels.conservativeResize(Eigen::NoChange, observations.levels.cols() + log_rates.cols());
+  observations.levels.rightCols(log_rates.cols()) =
+      exponent_scatter(observations, log_rates).value_or(rules.exponent_sd) * log_rates;
+  return observations;
+}
+
+bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors) {
+  return (log_rates_within_others(observations, factors).transpose() * observations.values).sum() > 0.0;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,43 @@
+#pragma once
+// Factors: the conditions of the tests on which homogeneous specimens depend, whatever the law. A factor is at work
+// where free levels of its values are needed for the base to fit (analysis of variance with the base as the mean).
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence.hpp"
+
+namespace nacre::diagnosis {
+
+/// Conditions that vary over the groups, and "material" where there are three and more; none unless all specimens are
+/// homogeneous and none is notched.
+std::vector<std::string> varying_factors(const Observations& observations);
+
+/// One free level for every combination of these factors' values in each material and feature, as columns over the
+/// rows: one standard deviation each. They are no levels of a material as a whole, but where "material" is among them.
+Eigen::MatrixXd level_directions(const Observations& observations, const std::vector<std::string>& factors, double sd);
+
+/// The least sets of factors whose free levels make the base fit. None where it fits without, or with no set.
+std::vector<std::vector<std::string>> factors_at_work(const Observations& observations, const FittedModel& base,
+                                                      const DiagnosisSettings& settings);
+
+/// Those that are in every set: the data can tell that these are at work.
+std::vector<std::string> told_factors(const std::vector<std::vector<std::string>>& sets);
+
+/// Whether no effect of the library describes a factor: temperature, humidity, age, machine. Their levels change
+/// nothing but what they are compared at. Those of a material would hide every effect.
+bool is_without_law(const std::string& factor);
+
+/// With free levels of these factors but for the strain rate, and of materials where they vary, in place of others.
+Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors, const NoiseRules& rules);
+
+/// The same, and a free exponent of the strain rate for stiffness and stresses of every material under equal values of
+/// the other factors: the part of a law that differs from one to the next.
+Observations with_free_exponents(Observations observations, const std::vector<std::string>& factors,
+                                 const NoiseRules& rules);
+
+/// Whether stiffness and stresses rise with the strain rate where all other factors are equal. A viscoelastic solid
+/// does not soften when it is pulled faster.
+bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors);
+
+}  // namespace nacre::diagnosis
