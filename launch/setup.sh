@@ -30,6 +30,16 @@ missing_packages() {
   done
 }
 
+# show_packages: of lines of apt-get that tell of a package, every 20th. Read by the shell, as in show_steps: Debian's awk
+# waits for a full buffer.
+show_packages() {
+  local line count=0
+  while IFS= read -r line; do
+    [[ $line =~ ^(Setting up|Selecting previously unselected package)\ ([^ ]+) ]] || continue
+    if ((++count % 20 == 0)); then say "  $count steps, at ${BASH_REMATCH[2]}"; fi
+  done
+}
+
 # install_packages game|tests
 install_packages() {
   command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
@@ -44,13 +54,21 @@ install_packages() {
   as_root apt-get update -q >"$log" 2>&1 || give_up "apt-get update failed (see $log): is the network up?"
   # shellcheck disable=SC2086
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing 2>&1 |
-    tee -a "$log" | awk '
-      /^(Setting up|Selecting) / {
-        if (++count % 20 == 0) print "nacre:   " count " steps, at " ($1 == "Setting" ? $3 : $NF) > "/dev/stderr"
-      }' || true
+    tee -a "$log" | show_packages || true
   missing=$(missing_packages "$1")
   [ -z "$missing" ] || give_up "these packages could not be installed: $missing(see $log)"
   rm -f "$log"
+}
+
+# show_steps: of lines that begin with [STEP/ALL], every 40th step and the last.
+show_steps() {
+  local line
+  while IFS= read -r line; do
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    if ((BASH_REMATCH[1] % 40 == 0 || BASH_REMATCH[1] == BASH_REMATCH[2])); then
+      say "  step ${BASH_REMATCH[1]} of ${BASH_REMATCH[2]}"
+    fi
+  done
 }
 
 # build TARGET: configures, and builds a target (play: what plays; all: tests and studies too) in build/.
@@ -68,12 +86,7 @@ build() {
     return
   fi
   # Not a terminal: one plain line every 40 steps; compiler messages go to the log and are shown when something fails.
-  if ! cmake --build "$NACRE_ROOT/build" --target "$target" 2>&1 | tee -a "$log" |
-    awk '
-      /^\[[0-9]+\/[0-9]+\]/ {
-        split(substr($1, 2), n, /[\/\]]/)
-        if (n[1] % 40 == 0 || n[1] == n[2]) print "nacre:   step " n[1] " of " n[2] > "/dev/stderr"
-      }'; then
+  if ! cmake --build "$NACRE_ROOT/build" --target "$target" 2>&1 | tee -a "$log" | show_steps; then
     grep -m 20 -E 'error|FAILED' "$log" >&2 || true
     give_up "building failed; the whole output is in build/setup.log"
   fi
