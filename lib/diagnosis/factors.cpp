@@ -152,6 +152,9 @@ std::vector<std::string> varying_factors(const Observations& observations) {
   for (const Descriptor& descriptor : descriptors())
     if (is_condition(descriptor.name) && most_values(observations, descriptor.name) > 1)
       factors.push_back(descriptor.name);
+  // What was chosen comes before what happened.
+  std::ranges::stable_partition(factors,
+                                [](const std::string& factor) { return factor != kPrintOrder && factor != "batch"; });
   constexpr std::size_t kConstants = 2;  // E of rigid and soft: the base fits any two materials
   const std::string material(kMaterial);
   if (most_values(observations, material) > kConstants) factors.push_back(material);

@@ -9,8 +9,8 @@
 
 namespace nacre::diagnosis {
 
-/// Conditions that vary over the groups, and "material" where there are three and more; none unless all specimens are
-/// homogeneous and none is notched.
+/// Conditions that vary over the groups, batch and print order behind the others, and "material" where there are three
+/// and more; none unless all specimens are homogeneous and none is notched.
 std::vector<std::string> varying_factors(const Observations& observations);
 
 /// One free level for every combination of these factors' values in each material and feature, as columns over the

@@ -112,8 +112,12 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 constexpr std::string_view kStrainRate = "strain rate";
 constexpr const char* kPowerLaw = "rate_power_law";
 
-bool contains_any(const std::vector<std::vector<std::string>>& sets, std::string_view name) {
-  return std::ranges::any_of(sets, [name](const std::vector<std::string>& set) { return contains(set, name); });
+/// Whether some set of factors does without this one, by a factor that has no law. An order or a batch is said to be
+/// alike (Cautions::alike), but has a law of its own that was tried.
+bool is_explained_without(const std::vector<std::vector<std::string>>& sets, std::string_view name) {
+  return std::ranges::any_of(sets, [name](const std::vector<std::string>& set) {
+    return !contains(set, name) && std::ranges::any_of(set, is_without_law);
+  });
 }
 
 bool is_of_rate(const FittedModel& model) {
@@ -164,7 +168,7 @@ Decision decided_with_factors(const Evidence& evidence, Decision decision) {
   }
   const bool is_green = decision.verdict == Verdict::base_sufficient || decision.verdict == Verdict::insufficient;
   const bool is_alias =
-      is_named && is_of_rate(decision.possible.front()) && !is_told && contains_any(evidence.factors, kStrainRate);
+      is_named && is_of_rate(decision.possible.front()) && is_explained_without(evidence.factors, kStrainRate);
   if (!is_green && !is_alias) return decision;
   decision.possible.clear();
   decision.gain.reset();
