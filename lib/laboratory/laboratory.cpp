@@ -14,6 +14,7 @@
 #include "laboratory/hidden_coupon.hpp"
 #include "laboratory/modulus_bench.hpp"
 #include "laboratory/specimen_raster.hpp"
+#include "laboratory/temperature.hpp"
 #include "material/neo_hookean.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "tester/fidelity.hpp"
@@ -33,7 +34,8 @@ constexpr double kCouponEnergy = 0.72;
 Making making_of(const Experiment& experiment, int specimen = 0) {
   return {.orientation_deg = experiment.conditions.orientation_deg,
           .thickness_mm = experiment.conditions.thickness_mm,
-          .strain_rate_per_s = experiment.conditions.strain_rate_per_s,
+          .strain_rate_per_s =
+              experiment.conditions.strain_rate_per_s * rate_shift(experiment.temperature_c.value_or(kReferenceC)),
           .pull_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(experiment.fidelity),
           .specimen = specimen};
 }
@@ -215,6 +217,12 @@ void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& res
 Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment) {
   if (experiment.test != TestKind::tensile && !experiment.loading.turns.empty())
     return fail("loading \"{}\": only unnotched coupons are unloaded here", tester::to_string(experiment.loading));
+  const double temperature_c = experiment.temperature_c.value_or(kReferenceC);
+  if (!(temperature_c >= kColdestC && temperature_c <= kHottestC))
+    return fail("temperature {} C, expected {} to {}", temperature_c, kColdestC, kHottestC);
+  if (experiment.test == TestKind::toughness && temperature_c != kReferenceC)
+    return fail("a fracture test at {} C, expected {}: how materials break there is not modelled", temperature_c,
+                kReferenceC);
   const double orientation = experiment.conditions.orientation_deg;
   if (orientation != 0.0 && orientation != 90.0) return fail("orientation {} degrees, expected 0 or 90", orientation);
   switch (experiment.test) {
@@ -237,6 +245,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   record.conditions = experiment.conditions;
   record.batch = replicate.batch;
   record.print_order = replicate.print_order;
+  if (experiment.temperature_c) record.other_columns["temperature_c"] = fmt::format("{:g}", *experiment.temperature_c);
   record.valid = response.has_value();
   record.note = response ? response->remark : response.error().message;
   if (!response) return record;

@@ -3,6 +3,7 @@
 // (the same for all replicates) and what scatters or is added by the machine are two steps, so that one simulation
 // serves every replicate.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Experiment {
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions = {};
   tester::Fidelity fidelity = tester::Fidelity::full;
-  tester::Loading loading = {};  ///< of a coupon; every other test is monotonic
+  tester::Loading loading = {};              ///< of a coupon; every other test is monotonic
+  std::optional<double> temperature_c = {};  ///< nothing: that of the laboratory, kReferenceC, and not noted
   int specimens = 0;  ///< pulled to separation, as far as they differ; 0: as many as the truth has replicates
   bool operator==(const Experiment&) const = default;
 };
@@ -35,7 +37,7 @@ struct TrueResponse {
 
 /// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no
 /// sense
-/// (`tensile` of a layout, an orientation other than 0 and 90).
+/// (`tensile` of a layout, an orientation other than 0 and 90, fracture at another temperature).
 Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
 
 /// One replicate: how it is called and where it was printed.

@@ -23,7 +23,22 @@ using measurement::SpecimenRecord;
 
 constexpr double kTurnedDeg = 90.0;
 
-/// What is to be measured: every design once per test and orientation, in the order given.
+/// The same test at every rate and temperature of the campaign.
+std::vector<Experiment> at_all_conditions(const Experiment& experiment, const Campaign& campaign) {
+  std::vector<std::optional<double>> temperatures_c(campaign.temperatures_c.begin(), campaign.temperatures_c.end());
+  if (temperatures_c.empty() || experiment.test == tester::TestKind::toughness) temperatures_c = {std::nullopt};
+  std::vector<Experiment> experiments;
+  for (const double rate_per_s : campaign.rates_per_s) {
+    for (const std::optional<double>& temperature_c : temperatures_c) {
+      experiments.push_back(experiment);
+      experiments.back().conditions.strain_rate_per_s = rate_per_s;
+      experiments.back().temperature_c = temperature_c;
+    }
+  }
+  return experiments;
+}
+
+/// What is to be measured: every design once per test, orientation and conditions, in the order given.
 std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campaign) {
   std::vector<Experiment> experiments;
   for (const pattern::Design& design : campaign.designs) {
@@ -31,11 +46,21 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
       for (const double orientation_deg : campaign.orientations_deg) {
         Experiment experiment{.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
         if (design.layout() != nullptr) experiment.conditions.orientation_deg = orientation_deg;
-        if (std::ranges::find(experiments, experiment) == experiments.end()) experiments.push_back(experiment);
+        for (const Experiment& each : at_all_conditions(experiment, campaign))
+          if (std::ranges::find(experiments, each) == experiments.end()) experiments.push_back(each);
       }
     }
   }
   return experiments;
+}
+
+/// Name of a specimen but for its number; rate and temperature only where there are several.
+std::string name_of(const Experiment& experiment, const Campaign& campaign) {
+  std::string name = fmt::format("{}-{}-{}", experiment.design.name(), tester::to_string(experiment.test),
+                                 experiment.conditions.orientation_deg == kTurnedDeg ? "turned-" : "");
+  if (campaign.rates_per_s.size() > 1) name += fmt::format("{:g}-", experiment.conditions.strain_rate_per_s);
+  if (experiment.temperature_c) name += fmt::format("{:g}C-", *experiment.temperature_c);
+  return name;
 }
 
 /// Effort of an experiment, in arbitrary units: a fracture takes thousands of times longer than a modulus.
@@ -107,11 +132,8 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign
   const std::vector<Result<TrueResponse>> responses = responses_to(truth, experiments, progress);
   std::vector<Planned> plan;
   for (std::size_t q = 0; q < experiments.size(); ++q) {
-    const Experiment& experiment = experiments[q];
-    const char* turned = experiment.conditions.orientation_deg == kTurnedDeg ? "turned-" : "";
     for (int k = 1; k <= truth.replicates; ++k) {
-      const std::string name =
-          fmt::format("{}-{}-{}{}", experiment.design.name(), tester::to_string(experiment.test), turned, k);
+      const std::string name = name_of(experiments[q], campaign) + std::to_string(k);
       plan.push_back({q, {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0, .number = k}});
     }
   }

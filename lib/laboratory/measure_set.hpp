@@ -16,12 +16,15 @@ struct Campaign {
   /// 0 and 90, each at most once: {0, 90} prints a turned twin of every design. Homogeneous coupons look the same from
   /// everywhere and are measured once.
   std::vector<double> orientations_deg = {0.0};
+  std::vector<double> rates_per_s = {tester::TestConditions{}.strain_rate_per_s};
+  std::vector<double> temperatures_c = {};  ///< of moduli and coupons; fracture tests are done at kReferenceC
 };
 
 /// Told while a campaign is simulated, from any thread: share 0..1 of the expected time, simulations done, of how many.
 using CampaignProgress = std::function<void(double share, int done, int all)>;
 
-/// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), all replicates,
+/// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), coupons of homogeneous
+/// designs alone, at every rate and temperature, all replicates,
 /// replicate k of everything in batch k, in an order of printing drawn from the seed. Simulations run on all allowed
 /// cores.
 std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const Campaign& campaign,

@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/measure_set.hpp"
+#include "laboratory/temperature.hpp"
 #include "output.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
@@ -22,6 +23,8 @@ struct MeasureOptions {
   std::string out;
   std::string test = "both";
   std::string orientation = "0";
+  std::vector<double> rates_per_s = laboratory::Campaign{}.rates_per_s;
+  std::vector<double> temperatures_c;
   bool json = false;
 };
 
@@ -33,6 +36,8 @@ int measure(const MeasureOptions& options) {
   if (options.test != "both") campaign.tests = {*tester::test_kind_from_string(options.test)};
   if (options.orientation == "90") campaign.orientations_deg = {90.0};
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
+  campaign.rates_per_s = options.rates_per_s;
+  campaign.temperatures_c = options.temperatures_c;
   prepare_output_folder(options.out);
   remark(fmt::format("measuring {}", counted(campaign.designs.size(), "design")));
   Progress progress("measure:");
@@ -62,13 +67,20 @@ void add_measure(CLI::App& app, Action& action) {
       .add_option("--out", options->out, "Folder of the measurement set; OUT.truth.toml keeps the hidden parameters")
       ->required();
   command.add_option("--test", options->test, "Which test to do")
-      ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      ->check(CLI::IsMember({"modulus", "toughness", "both", "tensile"}))
       ->capture_default_str();
   command
       .add_option("--orientation", options->orientation,
                   "Along the load (0), across it (90), or a specimen and its turned twin (both)")
       ->check(CLI::IsMember({"0", "90", "both"}))
       ->capture_default_str();
+  command.add_option("--rate", options->rates_per_s, "Strain rates, 1/s, at each of which every test is done")
+      ->check(CLI::Range(1e-7, 1e3))
+      ->capture_default_str();
+  command
+      .add_option("--temperature", options->temperatures_c,
+                  "Temperatures, degrees C, at each of which moduli and coupons are tested")
+      ->check(CLI::Range(laboratory::kColdestC, laboratory::kHottestC));
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

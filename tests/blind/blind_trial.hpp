@@ -100,6 +100,7 @@ inline OpenedTrial run_trial(
                          (experiment.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
       if (experiment.conditions.strain_rate_per_s != tester::TestConditions{}.strain_rate_per_s)
         name += "-at-" + std::to_string(experiment.conditions.strain_rate_per_s);
+      if (experiment.temperature_c) name += "-" + std::to_string(*experiment.temperature_c) + "C";
       records.push_back(
           laboratory::record_specimen(trial.truth, experiment, response,
                                       {name, "batch " + std::to_string(1 + batch_of(experiment, i)), ++print_order}));

@@ -63,6 +63,28 @@ TEST(BlindHomogeneousTrials, BlendsOffTheMixtureLawAreNamed) {
   EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.4, 0.06);
 }
 
+// Rates at three temperatures: these move E by more than the rate does, and have no law.
+TEST(BlindHomogeneousTrials, ThePowerOfTheRateIsNamedAtEqualTemperatures) {
+  const auto swept = [](std::uint64_t seed) {
+    std::vector<laboratory::Experiment> all;
+    for (laboratory::Experiment each : blends_at_four_rates(0)) {
+      for (const double temperature_c : {10.0, 25.0, 45.0}) {
+        each.temperature_c = temperature_c;
+        all.push_back(each);
+      }
+    }
+    RandomStream order(seed, "blind trial order");
+    for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[order.index(static_cast<int>(i))]);
+    return all;
+  };
+  const OpenedTrial trial = run_trial(laboratory(71, "rate_power_law", "[0.18, 0.2]"), swept, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "rate_dependence");
+  expect_parameter(trial.diagnosis["effects"][0], "soft_exponent", 0.18);
+  ASSERT_EQ(trial.diagnosis["factors"].size(), 1u);
+  EXPECT_EQ(trial.diagnosis["factors"][0], (std::vector<std::string>{"strain rate", "temperature"}));
+}
+
 TEST(BlindHomogeneousTrials, NothingIsNamedWhereNothingActs) {
   for (int seed = 64; seed < 70; ++seed) {
     const OpenedTrial trial = run_trial(laboratory(seed), blends_at_four_rates, "tiny");

@@ -13,6 +13,7 @@
 #include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory_file.hpp"
 #include "laboratory/measure_set.hpp"
+#include "laboratory/temperature.hpp"
 #include "measurement/read_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
@@ -307,6 +308,51 @@ TEST(Campaign, TurnedTwinsAreThoseOfLayoutsAndHomogeneousCouponsAreMeasuredOnce)
     record.print_order = same->print_order;
     EXPECT_EQ(record, *same) << "a twin changes nothing but the order of printing";
   }
+}
+
+// Closed form of Williams, Landel, Ferry (1955), and equal stiffness at the shifted rate.
+TEST(Temperature, ShiftsTheRate) {
+  EXPECT_DOUBLE_EQ(rate_shift(kReferenceC), 1.0);
+  EXPECT_NEAR(std::log10(rate_shift(kReferenceC + 40.0)), -8.86 * 40.0 / 141.6, 1e-12);
+  EXPECT_GT(rate_shift(0.0), 100.0) << "cold is fast";
+  Truth truth = plain_truth();
+  Experiment warm{.design = pattern::Mixture{0.3}, .fidelity = truth.fidelity};
+  const auto modulus = [&](double rate_per_s, std::optional<double> temperature_c) {
+    warm.conditions.strain_rate_per_s = rate_per_s;
+    warm.temperature_c = temperature_c;
+    return respond(truth, warm)->modulus_pa;
+  };
+  EXPECT_EQ(modulus(1e-3, 40.0), modulus(1e-3, {})) << "nothing depends on the rate";
+  truth.effects.rate_exponent = 0.2;
+  truth.effects.rate_exponent_ratio = 0.3;
+  EXPECT_EQ(modulus(1e-3, 23.0), modulus(1e-3, {}));
+  EXPECT_LT(modulus(1e-3, 40.0), 0.9 * modulus(1e-3, 23.0));
+  EXPECT_NEAR(modulus(1e-3, 40.0) / modulus(1e-3 * rate_shift(40.0), 23.0), 1.0, 1e-12);
+}
+
+TEST(Temperature, IsRefusedWhereItIsNotModelled) {
+  const Truth truth = plain_truth();
+  Experiment experiment{.design = pattern::Mixture{0.3}, .test = TestKind::toughness, .fidelity = truth.fidelity};
+  experiment.temperature_c = 40.0;
+  EXPECT_THAT(respond(truth, experiment).error().message, testing::HasSubstr("fracture test at 40 C"));
+  experiment.test = TestKind::modulus;
+  experiment.temperature_c = -80.0;
+  EXPECT_THAT(respond(truth, experiment).error().message, testing::HasSubstr("expected -20 to 150"));
+}
+
+TEST(Campaign, EveryRateAndTemperatureIsNotedAndHasSpecimensOfItsOwn) {
+  const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
+  Campaign campaign{{pattern::Mixture{1.0}}, {TestKind::modulus, TestKind::tensile}};
+  campaign.rates_per_s = {1e-3, 1e-1};
+  campaign.temperatures_c = {20.0, 40.0};
+  std::set<std::string> names;
+  for (const measurement::SpecimenRecord& record : measure(truth, campaign)) {
+    EXPECT_TRUE(record.valid) << record.note;
+    names.insert(record.specimen);
+    EXPECT_THAT(record.other_columns.at("temperature_c"), testing::AnyOf("20", "40"));
+  }
+  EXPECT_EQ(names.size(), 16u);
+  EXPECT_TRUE(names.contains("rigid-modulus-0.001-40C-2"));
 }
 
 TEST(Campaign, TellsHowFarItIs) {
