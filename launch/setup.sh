@@ -30,8 +30,8 @@ missing_packages() {
   done
 }
 
-# show_packages: of lines of apt-get that tell of a package, every 20th. Read by the shell, as in show_steps: Debian's awk
-# waits for a full buffer.
+# show_packages: of lines of apt-get that tell of a package, every 20th. Read by the shell, as in show_steps: Debian's
+# awk waits for a full buffer.
 show_packages() {
   local line count=0
   while IFS= read -r line; do
