@@ -93,9 +93,11 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
     const bool visible = typical[k].projected >= rules.names.visible_signal;
     const bool noticed = candidate.p_family_wise <= rules.levels.name;
-    candidate.status = holds(decision.possible, candidate.name) ? CandidateStatus::in_set
-                       : visible || noticed                     ? CandidateStatus::excluded
-                                                                : CandidateStatus::invisible;
+    const bool is_form = decision.finding.reason == Reason::free_form &&
+                         effect.cause() == material::find_effect(decision.possible.front().effects.front())->cause();
+    candidate.status = is_form || holds(decision.possible, candidate.name) ? CandidateStatus::in_set
+                       : visible || noticed                                ? CandidateStatus::excluded
+                                                                           : CandidateStatus::invisible;
     candidates.push_back(candidate);
   }
   return candidates;

@@ -29,6 +29,28 @@ Range widened(double low, double high) {
   return {low - margin, high + margin};
 }
 
+std::string words_of(const measurement::Surroundings& around) {
+  std::vector<std::string> words;
+  if (around.temperature_c) words.push_back(fmt::format("{:g} °C", *around.temperature_c));
+  if (around.humidity_pct) words.push_back(fmt::format("{:g} % humidity", *around.humidity_pct));
+  if (around.age_days) words.push_back(fmt::format("{:g} days old", *around.age_days));
+  if (!around.machine.empty()) words.push_back(around.machine);
+  return words.empty() ? std::string(kDash) : fmt::format("{}", fmt::join(words, ", "));
+}
+
+PlotPoint point_of(const MeasuredMean& mean) {
+  return {std::log10(mean.conditions.strain_rate_per_s), std::log10(1e-6 * mean.mean_pa)};
+}
+
+/// What one material measured in one surrounding, by increasing rate.
+std::map<std::string, std::vector<PlotPoint>> lines_of(const std::vector<const MeasuredMean*>& means) {
+  std::map<std::string, std::vector<PlotPoint>> lines;
+  for (const MeasuredMean* mean : means)
+    lines[measurement::nominal_surroundings(mean->surroundings)].push_back(point_of(*mean));
+  for (auto& [surroundings, line] : lines) std::ranges::sort(line, {}, &PlotPoint::x);
+  return lines;
+}
+
 /// Moduli of homogeneous materials at several rates; empty where no material has two.
 std::string rate_figure(const DataSummary& data) {
   std::map<std::string, std::vector<const MeasuredMean*>> of_material;
@@ -60,24 +82,18 @@ std::string rate_figure(const DataSummary& data) {
     std::vector<PlotPoint> points;
     std::vector<double> at;
     std::vector<Range> bars;
+    std::vector<std::string> hints;
     for (const MeasuredMean* mean : means) {
-      at.push_back(std::log10(mean->conditions.strain_rate_per_s));
-      points.push_back({at.back(), std::log10(1e-6 * mean->mean_pa)});
+      points.push_back(point_of(*mean));
+      at.push_back(points.back().x);
+      hints.push_back(fmt::format("{} {}", material, words_of(mean->surroundings)));
       bars.push_back({std::log10(1e-6 * mean->low_pa), std::log10(1e-6 * mean->high_pa)});
     }
+    for (const auto& [surroundings, line] : lines_of(means)) plot.line(line, family_ink(ink), Stroke::thin, "");
     plot.error_bars(at, bars, family_ink(ink));
-    plot.dots(points, family_ink(ink++), material);
+    plot.dots(points, family_ink(ink++), material, hints);
   }
   return plot.svg();
-}
-
-std::string words_of(const measurement::Surroundings& around) {
-  std::vector<std::string> words;
-  if (around.temperature_c) words.push_back(fmt::format("{:g} °C", *around.temperature_c));
-  if (around.humidity_pct) words.push_back(fmt::format("{:g} % humidity", *around.humidity_pct));
-  if (around.age_days) words.push_back(fmt::format("{:g} days old", *around.age_days));
-  if (!around.machine.empty()) words.push_back(around.machine);
-  return words.empty() ? std::string(kDash) : fmt::format("{}", fmt::join(words, ", "));
 }
 
 ExhibitTable mean_table(const DataSummary& data) {

@@ -43,6 +43,7 @@ std::string headline(const Diagnosis& d) {
     case Verdict::base_sufficient:
       return "Nothing is missing: the residuals are noise";
     case Verdict::named: {
+      if (d.finding.reason == diagnosis::Reason::free_form) return "The cause is the strain rate; its law is open";
       std::vector<std::string> effects;
       for (const auto& effect : d.effects) effects.push_back(effect.name);
       return "The cause is " + names_of(effects, " and ");

@@ -92,6 +92,10 @@ TEST(Factors, TheRateIsNamedWithinTemperaturesWhateverItsLaw) {
   ASSERT_EQ(diagnosis.factors.size(), 1u);
   EXPECT_EQ(diagnosis.factors.front(), (std::vector<std::string>{"strain rate", "temperature"}));
   EXPECT_LT(diagnosis.p_misfit, 0.01) << "of the base alone";
+  for (const CandidateEffect& candidate : diagnosis.candidates) {
+    const bool is_of_rate = candidate.name == "rate_dependence" || candidate.name == "rate_power_law";
+    EXPECT_EQ(candidate.status == CandidateStatus::in_set, is_of_rate) << candidate.name;
+  }
   EXPECT_NE(diagnosis.summary.find("temperature"), std::string::npos) << diagnosis.summary;
 }
 

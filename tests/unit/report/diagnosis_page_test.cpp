@@ -176,6 +176,8 @@ TEST(DiagnosisPage, DataOfHomogeneousSpecimensComeFirst) {
   EXPECT_LT(data, page.find("<section id=\"where\">"));
   EXPECT_THAT(page, AllOf(HasSubstr("Modulus against strain rate"), HasSubstr("1800 … 2200"), HasSubstr("6.0 %"),
                           HasSubstr("1.30"), HasSubstr("&lt; 0.001")));
+  d.finding.reason = diagnosis::Reason::free_form;
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full), HasSubstr("The cause is the strain rate"));
   d.data.means = {};
   d.data.trends = {};
   EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full), Not(HasSubstr("id=\"data\"")));
