@@ -18,6 +18,7 @@ inline constexpr int kSide = 20;
 inline constexpr int kPixels = kSide * kSide;
 /// Pixels along one side of the upper-left quarter, and the free pixels of a pattern: the quarter's upper triangle.
 inline constexpr int kQuarter = kSide / 2;
+inline constexpr int kQuarterPixels = kQuarter * kQuarter;
 inline constexpr int kFreePixels = kQuarter * (kQuarter + 1) / 2;
 /// One bit for every free pixel: the bits of the wholly rigid pattern.
 inline constexpr std::uint64_t kAllFreePixels = (std::uint64_t{1} << kFreePixels) - 1;

@@ -36,11 +36,9 @@ MakeNetwork maker() {
 }
 #endif
 
-constexpr std::size_t kQuarterPixels = pattern::kQuarter * pattern::kQuarter;
-
 std::vector<float> quarters_of(std::span<const pattern::Pattern> patterns) {
   std::vector<float> quarters;
-  quarters.reserve(patterns.size() * kQuarterPixels);
+  quarters.reserve(patterns.size() * pattern::kQuarterPixels);
   for (const pattern::Pattern& pattern : patterns) {
     for (int r = 0; r < pattern::kQuarter; ++r)
       for (int c = 0; c < pattern::kQuarter; ++c) quarters.push_back(pattern.rigid(r, c) ? 1.0f : 0.0f);
@@ -166,8 +164,8 @@ std::unique_ptr<Predictor> fit_ensemble(const Samples& samples, std::size_t sett
   // One scale for both trainings, or the second would have to undo the first.
   const TargetScale scale = scale_of(samples.values.first(first));
   const std::vector<float> quarters = quarters_of(samples.patterns), targets = standardised(samples.values, scale);
-  const std::vector<float> first_quarters(quarters.begin(),
-                                          quarters.begin() + static_cast<std::ptrdiff_t>(first * kQuarterPixels));
+  const std::vector<float> first_quarters(
+      quarters.begin(), quarters.begin() + static_cast<std::ptrdiff_t>(first * pattern::kQuarterPixels));
   const std::vector<float> first_targets(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(first));
   std::vector<std::unique_ptr<Network>> members;
   for (int m = 0; m < settings.members; ++m) {

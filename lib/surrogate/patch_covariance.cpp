@@ -14,7 +14,6 @@ namespace nacre::surrogate {
 namespace {
 
 constexpr int kQuarter = pattern::kQuarter;
-constexpr int kQuarterPixels = kQuarter * kQuarter;
 
 /// The row or column that lies at `index` when the quarter goes on as its mirror image on both sides.
 constexpr int mirrored(int index) {
@@ -52,8 +51,8 @@ PatchCovariance::PatchCovariance(const PatchKernel& kernel)
     : kernel_(kernel), patch_(window_factors(1, kernel.patch_decay)), region_(window_factors(2, kernel.region_decay)) {
   assert(kernel.patch_decay > 0.0 && kernel.patch_decay < 1.0 && kernel.region_decay > 0.0 &&
          kernel.region_decay < 1.0 && kernel.whole_decay > 0.0 && kernel.whole_decay < 1.0);
-  for (int different = 0; different <= kQuarterPixels; ++different) {
-    const double equal_share = 1.0 - different / static_cast<double>(kQuarterPixels);
+  for (int different = 0; different <= pattern::kQuarterPixels; ++different) {
+    const double equal_share = 1.0 - different / static_cast<double>(pattern::kQuarterPixels);
     whole_[different] =
         kernel.pixel_variance * equal_share + kernel.whole_variance * std::pow(kernel.whole_decay, different);
   }
@@ -77,8 +76,8 @@ NACRE_VECTOR_CLONES double PatchCovariance::operator()(const QuarterRows& a, con
   }
   double patch_sum = 0.0, region_sum = 0.0;
   for (int lane = 0; lane < kQuarter; ++lane) patch_sum += patches[lane], region_sum += regions[lane];
-  return whole_[different] + kernel_.patch_variance * patch_sum / kQuarterPixels +
-         kernel_.region_variance * region_sum / kQuarterPixels;
+  return whole_[different] + kernel_.patch_variance * patch_sum / pattern::kQuarterPixels +
+         kernel_.region_variance * region_sum / pattern::kQuarterPixels;
 }
 
 }  // namespace nacre::surrogate
