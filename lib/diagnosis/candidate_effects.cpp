@@ -16,6 +16,11 @@ bool is_identified_by_moduli(const material::Effect& effect) {
          effect.name == "droplet_mixing" || effect.name == "rigid_overprint" || effect.name == "blend_law";
 }
 
+bool have_rate_law(std::span<const std::string> effects) {
+  return std::ranges::any_of(effects,
+                             [](const std::string& name) { return material::find_effect(name)->family == "rate"; });
+}
+
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
   const DataRow& each = observations.rows[row];
   return each.kind == RowKind::mean && each.test == TestKind::modulus &&

@@ -2,6 +2,7 @@
 // Which effects are candidates on some rows (docs/METHODS.md, "Diagnosis", 3).
 
 #include <span>
+#include <string>
 
 #include "diagnosis/observations.hpp"
 #include "material/extensions.hpp"
@@ -11,6 +12,9 @@ namespace nacre::diagnosis {
 /// Whether moduli alone can identify an effect: those of the machine, and those that blind trials showed; the others
 /// need a further test to be named.
 bool is_identified_by_moduli(const material::Effect& effect);
+
+/// Whether one of these effects is a law of the strain rate.
+bool have_rate_law(std::span<const std::string> effects);
 
 /// Whether a row is the mean modulus of a layout: a signature there does not count for effects that need another test.
 bool is_modulus_of_layout(const Observations& observations, Eigen::Index row);

@@ -138,6 +138,13 @@ std::string name_of(Feature feature, tester::TestKind test, const Kinds& kinds) 
                      test == tester::TestKind::tensile ? "coupons" : "notched specimens");
 }
 
+/// That of a name that is none, like "material" or "level", is `design`.
+DescriptorKind kind_of(std::string_view name) {
+  static const std::vector<Descriptor> all = descriptors();
+  const auto found = std::ranges::find(all, name, &Descriptor::name);
+  return found == all.end() ? DescriptorKind::design : found->kind;
+}
+
 Eigen::VectorXd spread(const Observations& observations, const std::vector<int>& rows,
                        const std::function<double(const Observation&)>& value) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations.size());
@@ -148,30 +155,35 @@ Eigen::VectorXd spread(const Observations& observations, const std::vector<int>&
 }  // namespace
 
 std::vector<Descriptor> descriptors() {
+  using enum DescriptorKind;
   std::vector<Descriptor> all = {
-      {"rigid fraction", [](const Observation& g) { return g.design.rigid_fraction(); }},
-      {"orientation", [](const Observation& g) { return g.conditions.orientation_deg; }},
-      {"strain rate", [](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }},
-      {"thickness", [](const Observation& g) { return g.conditions.thickness_mm; }},
-      {"print order", [](const Observation& g) { return g.print_order; }},
-      {"batch", [](const Observation& g) { return g.batch_step; }},
+      {"rigid fraction", design, [](const Observation& g) { return g.design.rigid_fraction(); }},
+      {"orientation", condition_with_law, [](const Observation& g) { return g.conditions.orientation_deg; }},
+      {std::string(kStrainRate), condition_with_law,
+       [](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }},
+      {"thickness", condition_with_law, [](const Observation& g) { return g.conditions.thickness_mm; }},
+      {"print order", condition_with_law, [](const Observation& g) { return g.print_order; }},
+      {"batch", condition_with_law, [](const Observation& g) { return g.batch_step; }},
       // Where it is not noted: the standard atmosphere of ISO 291, and new.
-      {"temperature", [](const Observation& g) { return g.surroundings.temperature_c.value_or(23.0); }},
-      {"humidity", [](const Observation& g) { return g.surroundings.humidity_pct.value_or(50.0); }},
-      {"age", [](const Observation& g) { return std::log1p(g.surroundings.age_days.value_or(0.0)); }},
-      {"machine", [](const Observation& g) { return static_cast<double>(g.machine); }},
+      {"temperature", condition_without_law,
+       [](const Observation& g) { return g.surroundings.temperature_c.value_or(23.0); }},
+      {"humidity", condition_without_law,
+       [](const Observation& g) { return g.surroundings.humidity_pct.value_or(50.0); }},
+      {"age", condition_without_law,
+       [](const Observation& g) { return std::log1p(g.surroundings.age_days.value_or(0.0)); }},
+      {"machine", condition_without_law, [](const Observation& g) { return static_cast<double>(g.machine); }},
   };
   for (const LayoutDescriptor& descriptor : kLayoutDescriptors)
-    all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) {
+    all.push_back({descriptor.name, design, [of = descriptor.of](const Observation& g) {
                      return g.design.layout() ? of(*g.design.layout()) : 0.0;
                    }});
   return all;
 }
 
-bool is_condition(std::string_view descriptor) {
-  constexpr std::array<std::string_view, 9> kConditions = {
-      "orientation", "strain rate", "thickness", "print order", "batch", "temperature", "humidity", "age", "machine"};
-  return std::ranges::find(kConditions, descriptor) != kConditions.end();
+bool is_condition(std::string_view descriptor) { return kind_of(descriptor) != DescriptorKind::design; }
+
+bool is_without_law(std::string_view descriptor) {
+  return kind_of(descriptor) == DescriptorKind::condition_without_law;
 }
 
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted) {
@@ -228,9 +240,11 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
 }
 
 std::vector<ContrastDirection> even_directions(const Observations& observations) {
+  using enum DescriptorKind;
   const std::array<Descriptor, 2> conditions = {
-      Descriptor{"orientation", [](const Observation& g) { return g.conditions.orientation_deg; }},
-      Descriptor{"thickness", [](const Observation& g) { return 1.0 / g.conditions.thickness_mm; }}};
+      Descriptor{"orientation", condition_with_law, [](const Observation& g) { return g.conditions.orientation_deg; }},
+      Descriptor{"thickness", condition_with_law,
+                 [](const Observation& g) { return 1.0 / g.conditions.thickness_mm; }}};
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];

@@ -21,11 +21,18 @@ struct ContrastDirection {
   Eigen::VectorXd values;
 };
 
+/// What a descriptor describes: the layout, or a condition of the test; one with a law that effects of the library
+/// describe, or one without (temperature, humidity, age, machine).
+enum class DescriptorKind { design, condition_with_law, condition_without_law };
+
 /// A number that describes a group: its conditions, or its layout.
 struct Descriptor {
   std::string name;
+  DescriptorKind kind = DescriptorKind::design;
   std::function<double(const Observation&)> of;
 };
+
+inline constexpr std::string_view kStrainRate = "strain rate";
 
 /// Rigid fraction, orientation, rate, thickness, print order, batch, temperature, humidity, age, machine; interface
 /// length along and across the load, run length of either phase, corner contacts, percolation of the rigid phase.
@@ -33,6 +40,9 @@ std::vector<Descriptor> descriptors();
 
 /// Whether a descriptor is a condition of the test, and not a property of the design.
 bool is_condition(std::string_view descriptor);
+
+/// Whether it is one that no effect of the library describes.
+bool is_without_law(std::string_view descriptor);
 
 /// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and
 /// peak stress; every feature as a whole; changes from batch to batch and with the print order; every batch of three

@@ -10,7 +10,6 @@
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
-#include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/other_materials.hpp"
@@ -196,9 +195,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   const FittedModel& decided = !decision.possible.empty() ? decision.possible.front()
                                : decision.partial         ? *decision.partial
                                                           : evidence.base.fit;
-  Evidence extending = evidence;
-  if (decision.finding.reason == Reason::free_form)
-    extending.observations = with_free_exponents(observations, evidence.factors.front(), settings.procedure.noise);
+  const Evidence& extending = decision.freed ? *decision.freed : evidence;
   FittedModel extended = decided;
   if (decision.verdict == Verdict::named) {
     report(0.92, "sizes of the named effects");

@@ -94,11 +94,11 @@ Evidence with_factors(Evidence evidence, const Data& data) {
   if (evidence.p_misfit >= settings.procedure.levels.unexplained) return evidence;
   evidence.factors = factors_at_work(evidence.observations, evidence.base.fit, settings);
   if (evidence.factors.empty()) return evidence;
-  std::vector<std::string> without_law = evidence.factors.front();
-  std::erase_if(without_law, [](const std::string& factor) { return !is_without_law(factor); });
-  if (without_law.empty()) return evidence;
+  const std::vector<std::string> levelled_factors = without_law(evidence.factors.front());
+  if (levelled_factors.empty()) return evidence;
   Data levelled = data;
-  levelled.observations.levels = level_directions(data.observations, without_law, settings.procedure.noise.level_sd);
+  levelled.observations.levels =
+      level_directions(data.observations, levelled_factors, settings.procedure.noise.level_sd);
   Evidence within = with_draws(fitted(levelled, settings));
   within.factors = evidence.factors;
   within.without_levels = std::make_shared<const Evidence>(std::move(evidence));

@@ -1,7 +1,6 @@
 #include "diagnosis/factors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -18,7 +17,6 @@ namespace {
 constexpr std::string_view kMaterial = "material";
 /// Every specimen has a place of its own in it: a trend, and no level each.
 constexpr std::string_view kPrintOrder = "print order";
-constexpr std::string_view kRate = "strain rate";
 
 /// The value of a factor as a name. Surroundings are equal within what no laboratory holds.
 std::string value_of(const Observation& group, std::string_view factor) {
@@ -95,7 +93,7 @@ void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, con
 /// Logarithms of the rate of stiffness and stresses, centred within each material under equal values of the factors
 /// other than the rate: a column for each of these.
 Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::vector<std::string> factors) {
-  std::erase(factors, kRate);
+  std::erase(factors, kStrainRate);
   if (std::ranges::find(factors, kMaterial) == factors.end()) factors.emplace_back(kMaterial);
   Eigen::VectorXd log_rate = Eigen::VectorXd::Zero(observations.size());
   for (int i = 0; i < observations.size(); ++i)
@@ -207,14 +205,14 @@ std::vector<std::string> told_factors(const std::vector<std::vector<std::string>
   return told;
 }
 
-bool is_without_law(const std::string& factor) {
-  constexpr std::array<std::string_view, 4> kWithoutLaw = {"temperature", "humidity", "age", "machine"};
-  return std::ranges::find(kWithoutLaw, factor) != kWithoutLaw.end();
+std::vector<std::string> without_law(std::vector<std::string> factors) {
+  std::erase_if(factors, [](const std::string& factor) { return !is_without_law(factor); });
+  return factors;
 }
 
 Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
                                   const NoiseRules& rules) {
-  std::erase(factors, kRate);
+  std::erase(factors, kStrainRate);
   const std::string material(kMaterial);
   const auto has_material = [&](const std::vector<std::string>& of) { return std::ranges::count(of, material) > 0; };
   if (!has_material(factors) && has_material(varying_factors(observations))) factors.push_back(material);

@@ -24,9 +24,9 @@ std::vector<std::vector<std::string>> factors_at_work(const Observations& observ
 /// Those that are in every set: the data can tell that these are at work.
 std::vector<std::string> told_factors(const std::vector<std::vector<std::string>>& sets);
 
-/// Whether no effect of the library describes a factor: temperature, humidity, age, machine. Their levels change
-/// nothing but what they are compared at. Those of a material would hide every effect.
-bool is_without_law(const std::string& factor);
+/// Those that no effect of the library describes (contrasts.hpp). Their levels change nothing but what specimens are
+/// compared at. Those of a material would hide every effect.
+std::vector<std::string> without_law(std::vector<std::string> factors);
 
 /// With free levels of these factors but for the strain rate, and of materials where they vary, in place of others.
 Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors, const NoiseRules& rules);

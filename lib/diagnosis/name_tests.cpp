@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
 #include "diagnosis/shared_discretisation.hpp"
@@ -59,11 +60,9 @@ double weakest_signal(const Evidence& evidence, const FittedModel& model) {
 /// rate dependence, whatever its form: where rate alone differs nothing else can look like it, and where it goes with
 /// another condition the direction of that one stays.
 Anchor without_own_direction(Anchor anchor, std::span<const std::string> effects) {
-  const bool of_rate = std::ranges::any_of(
-      effects, [](const std::string& name) { return material::find_effect(name)->family == "rate"; });
-  if (of_rate)
+  if (have_rate_law(effects))
     std::erase_if(anchor.directions,
-                  [](const ContrastDirection& direction) { return direction.view.against == "strain rate"; });
+                  [](const ContrastDirection& direction) { return direction.view.against == kStrainRate; });
   return anchor;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/contrasts.hpp"
 #include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
@@ -109,7 +111,6 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-constexpr std::string_view kStrainRate = "strain rate";
 constexpr const char* kPowerLaw = "rate_power_law";
 
 /// Whether some set of factors does without this one, by a factor that has no law. An order or a batch is said to be
@@ -120,18 +121,13 @@ bool is_explained_without(const std::vector<std::vector<std::string>>& sets, std
   });
 }
 
-bool is_of_rate(const FittedModel& model) {
-  return std::ranges::any_of(model.effects,
-                             [](const std::string& name) { return material::find_effect(name)->family == "rate"; });
-}
-
 /// The law of the strain rate that comes nearest: powers, of which every material at every temperature may have its
 /// own, where they act; nothing where no such effect acts.
 const FittedModel* nearest_rate_law(const Evidence& evidence) {
   const FittedModel* nearest = nullptr;
   for (const FittedModel& single : evidence.singles) {
     if (single.effects.front() == kPowerLaw) return &single;
-    if (is_of_rate(single) && (nearest == nullptr || single.chi2 < nearest->chi2)) nearest = &single;
+    if (have_rate_law(single.effects) && (nearest == nullptr || single.chi2 < nearest->chi2)) nearest = &single;
   }
   return nearest;
 }
@@ -140,14 +136,16 @@ const FittedModel* nearest_rate_law(const Evidence& evidence) {
 Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest, Decision decision) {
   const Procedure& rules = evidence.settings.procedure;
   const std::vector<std::string>& factors = evidence.factors.front();
-  const Observations levelled = with_levels_but_rate(evidence.observations, factors, rules.noise),
-                     freed = with_free_exponents(evidence.observations, factors, rules.noise);
-  const FittedModel law = fit_model(evidence.model, freed, rules.fit, nearest.effects, nearest.u);
+  const Observations levelled = with_levels_but_rate(evidence.observations, factors, rules.noise);
+  Evidence freed = evidence;
+  freed.observations = with_free_exponents(evidence.observations, factors, rules.noise);
+  const FittedModel law = fit_model(evidence.model, freed.observations, rules.fit, nearest.effects, nearest.u);
   decision.verdict = Verdict::named;
   decision.partial.reset();
   decision.possible = {law};
-  decision.gain =
-      held_out_gain(levelled, evidence.base.fit, {law}, law.effects, 0.0, rules.gain, evidence.settings.seed, &freed);
+  decision.gain = held_out_gain(levelled, evidence.base.fit, {law}, law.effects, 0.0, rules.gain,
+                                evidence.settings.seed, &freed.observations);
+  decision.freed = std::make_shared<const Evidence>(std::move(freed));
   decision.finding = {
       .reason = Reason::free_form, .nearest = law.effects, .value = chance_of_misfit(evidence, nearest)};
   return decision;
@@ -167,8 +165,8 @@ Decision decided_with_factors(const Evidence& evidence, Decision decision) {
     if (is_open || free.gain->held_out_error_after < decision.gain->held_out_error_after) return free;
   }
   const bool is_green = decision.verdict == Verdict::base_sufficient || decision.verdict == Verdict::insufficient;
-  const bool is_alias =
-      is_named && is_of_rate(decision.possible.front()) && is_explained_without(evidence.factors, kStrainRate);
+  const bool is_alias = is_named && have_rate_law(decision.possible.front().effects) &&
+                        is_explained_without(evidence.factors, kStrainRate);
   if (!is_green && !is_alias) return decision;
   decision.possible.clear();
   decision.gain.reset();

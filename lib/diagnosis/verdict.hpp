@@ -1,6 +1,7 @@
 #pragma once
 // From evidence to verdict (docs/METHODS.md, "Diagnosis", step 7).
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +19,11 @@ struct Decision {
   std::optional<Gain> gain;            ///< of the one model that stays possible
   double p_outside = 1.0;  ///< chance that an unmodelled cause would give a name as surely (discrepancy_model.hpp); 1
                            ///< when not tested
-  std::vector<Contrast> contrasts;     ///< of the base model's residuals, strongest first
-  std::size_t loudest_part = 0;        ///< of the rows, where the base is farthest off (Anchor::parts)
-  std::vector<ModulusAtBound> untold;  ///< where specimens of these materials would decide between another material
-                                       ///< and a missing effect: `ambiguous`, no model possible
+  std::vector<Contrast> contrasts;        ///< of the base model's residuals, strongest first
+  std::size_t loudest_part = 0;           ///< of the rows, where the base is farthest off (Anchor::parts)
+  std::vector<ModulusAtBound> untold;     ///< where specimens of these materials would decide between another material
+                                          ///< and a missing effect: `ambiguous`, no model possible
+  std::shared_ptr<const Evidence> freed;  ///< of a law in free form: with free exponents; nothing: there is none
   Finding finding;
 };
 

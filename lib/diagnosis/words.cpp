@@ -140,8 +140,7 @@ std::string models_in_words(const std::vector<std::vector<std::string>>& models)
 /// What else the data depend on: effects were judged where it is equal.
 std::string levels_in_words(const Diagnosis& d) {
   if (d.factors.empty()) return "";
-  std::vector<std::string> others = d.factors.front();
-  std::erase_if(others, [](const std::string& factor) { return !is_without_law(factor); });
+  const std::vector<std::string> others = without_law(d.factors.front());
   if (others.empty()) return "";
   return fmt::format(" The data depend on {} too, of which nacre has no law: everything was judged where it is equal.",
                      fmt::join(others, " and "));

@@ -24,9 +24,8 @@ struct Campaign {
 using CampaignProgress = std::function<void(double share, int done, int all)>;
 
 /// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), coupons of homogeneous
-/// designs alone, at every rate and temperature, all replicates,
-/// replicate k of everything in batch k, in an order of printing drawn from the seed. Simulations run on all allowed
-/// cores.
+/// designs alone, at every rate and temperature, all replicates, replicate k of everything in batch k, in an order of
+/// printing drawn from the seed. Simulations run on all allowed cores.
 std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const Campaign& campaign,
                                                  const CampaignProgress& progress = {});
 
