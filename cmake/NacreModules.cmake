@@ -59,11 +59,6 @@ function(nacre_test_in_suite suite name seconds)
   set_tests_properties(${suite}.${name} PROPERTIES LABELS ${suite} TIMEOUT ${limit})
 endfunction()
 
-# Tests' own sources spend little time at work and much in the compiler.
-add_library(nacre_test_flags INTERFACE)
-target_link_libraries(nacre_test_flags INTERFACE nacre_flags)
-target_compile_options(nacre_test_flags INTERFACE $<$<CONFIG:Release>:-O1>)
-
 # nacre_test(NAME SOURCES ... LIBRARIES ... [LABEL unit|physics|...] [TIMEOUT seconds])
 # A GoogleTest program registered with CTest as one test named LABEL.NAME.
 function(nacre_test name)
@@ -76,7 +71,7 @@ function(nacre_test name)
   endif()
   set(target ${ARG_LABEL}_${name}_test)
   add_executable(${target} ${ARG_SOURCES})
-  target_link_libraries(${target} PRIVATE nacre_test_flags ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE nacre_flags ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE NACRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                NACRE_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

@@ -56,7 +56,7 @@ std::vector<Made> rates_at_temperatures() {
   return all;
 }
 
-Observations observed(const std::vector<measurement::SpecimenRecord>& specimens) {
+Observations observations_of(const std::vector<measurement::SpecimenRecord>& specimens) {
   return observe(specimens, 0.0, {}, {});
 }
 
@@ -69,14 +69,14 @@ DiagnosisSettings quick_settings() {
 
 TEST(Factors, VaryingOnesAreThoseOfHomogeneousSpecimensAlone) {
   std::vector<measurement::SpecimenRecord> specimens = specimens_of(rates_at_temperatures(), warm_and_slow);
-  EXPECT_EQ(varying_factors(observed(specimens)), (std::vector<std::string>{"strain rate", "temperature"}));
+  EXPECT_EQ(varying_factors(observations_of(specimens)), (std::vector<std::string>{"strain rate", "temperature"}));
   specimens.push_back(synthetic_specimens({.patterns = 1, .twins = 0, .replicates = 1}, synthetic_truth()).front());
-  EXPECT_TRUE(varying_factors(observed(specimens)).empty());
+  EXPECT_TRUE(varying_factors(observations_of(specimens)).empty());
 }
 
 // Free levels compare specimens at equal values; what all of a material have in common stays the model's.
 TEST(Factors, LevelsLeaveTheMeanOfAMaterial) {
-  const Observations observations = observed(specimens_of(rates_at_temperatures(), warm_and_slow));
+  const Observations observations = observations_of(specimens_of(rates_at_temperatures(), warm_and_slow));
   const Eigen::MatrixXd levels = level_directions(observations, {"temperature"}, 2.0);
   ASSERT_EQ(levels.rows(), 12);
   ASSERT_EQ(levels.cols(), 3);

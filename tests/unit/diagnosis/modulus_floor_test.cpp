@@ -8,7 +8,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-std::filesystem::path file_with(const std::string& text) {
+std::filesystem::path floor_file(const std::string& text) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "modulus_floor_test.toml";
   write_file_atomically(path, text);
   return path;
@@ -24,13 +24,13 @@ TEST(ModulusFloor, TheShippedFileHasAFloorForEveryFidelity) {
 }
 
 TEST(ModulusFloor, WithoutACommonDirectionAllOfItIsIndependent) {
-  const ModulusFloor floor = read_modulus_floor(file_with("[full]\nlog_modulus_sd = 0.006\n"), tester::Fidelity::full);
+  const ModulusFloor floor = read_modulus_floor(floor_file("[full]\nlog_modulus_sd = 0.006\n"), tester::Fidelity::full);
   EXPECT_EQ(floor.mesh_amplitude, 0.0);
   EXPECT_EQ(floor.mesh_remainder_sd, 0.006);
 }
 
 TEST(ModulusFloor, WhatIsNoNumberIsNamed) {
-  const auto file = file_with("[full]\nlog_modulus_sd = -1\n");
+  const auto file = floor_file("[full]\nlog_modulus_sd = -1\n");
   try {
     read_modulus_floor(file, tester::Fidelity::full);
     FAIL() << "a negative deviation was accepted";

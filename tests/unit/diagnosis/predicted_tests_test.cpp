@@ -20,7 +20,7 @@ namespace {
 constexpr int kReplicates = 3;
 
 /// Moduli with a shared discretisation error.
-DiagnosisSettings tiny_settings() {
+DiagnosisSettings floor_settings() {
   DiagnosisSettings settings{};
   settings.start = material::thesis_parameters();
   settings.fidelity = tester::Fidelity::tiny;
@@ -83,7 +83,7 @@ std::vector<PossibleTest> few_tests(const Observations& observations) {
 class MixedDroplets : public testing::Test {
  protected:
   struct Gathered {
-    DiagnosisSettings settings = tiny_settings();
+    DiagnosisSettings settings = floor_settings();
     Evidence evidence = gather_evidence(data_of(mixed_specimens(), settings), settings);
   };
   static void SetUpTestSuite() { gathered_ = std::make_unique<Gathered>(); }

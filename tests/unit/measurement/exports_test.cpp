@@ -27,9 +27,9 @@ using testing::HasSubstr;
 const fs::path kCases = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
 Import import_case(const std::string& folder) { return import_exports({}, kCases / folder / "sheet.csv"); }
 
-void expect_usual(const ImportedSpecimen& one, double rate_per_s = kRatePerS) {
-  EXPECT_NEAR(one.test.modulus_pa, kModulusPa, 0.005 * kModulusPa) << one.record.specimen;
-  EXPECT_NEAR(one.test.toughness_pa, kToughnessPa, 0.005 * kToughnessPa) << one.record.specimen;
+void expect_usual(const ImportedSpecimen& one, double rate_per_s = kLayoutRatePerS) {
+  EXPECT_NEAR(one.test.modulus_pa, kLayoutModulusPa, 0.005 * kLayoutModulusPa) << one.record.specimen;
+  EXPECT_NEAR(one.test.toughness_pa, kLayoutToughnessPa, 0.005 * kLayoutToughnessPa) << one.record.specimen;
   EXPECT_TRUE(one.record.valid) << one.record.note;
   if (rate_per_s > 0.0) {
     EXPECT_NEAR(one.record.conditions.strain_rate_per_s, rate_per_s, 0.005 * rate_per_s) << one.record.specimen;
@@ -77,7 +77,7 @@ TEST(Exports, SpecimensBelowEachOtherAreParts) {
 TEST(Exports, NoiseOfTheExtensionDoesNotRaiseTheModulus) {
   const Import import = import_case("10-noisy-extension-raises-E");
   ASSERT_EQ(import.specimens.size(), 1U) << all_of(import);
-  EXPECT_NEAR(import.specimens[0].test.modulus_pa, kModulusPa, 0.015 * kModulusPa);
+  EXPECT_NEAR(import.specimens[0].test.modulus_pa, kLayoutModulusPa, 0.015 * kLayoutModulusPa);
   EXPECT_GT(import.specimens[0].test.modulus_error_pa, 0.0);
 }
 
@@ -116,7 +116,7 @@ TEST(Exports, ThousandsMayBeGroupedByTypographicSigns) {
   const Import import = import_case("28-numbers-as-programs-group-them");
   EXPECT_EQ(import.specimens.size(), 2U) << all_of(import);
   for (const ImportedSpecimen& one : import.specimens)
-    EXPECT_NEAR(one.test.toughness_pa, kToughnessPa, 0.01 * kToughnessPa);
+    EXPECT_NEAR(one.test.toughness_pa, kLayoutToughnessPa, 0.01 * kLayoutToughnessPa);
 }
 
 TEST(Exports, HeadingsOnEveryPageAreOneRecord) { expect_all_usual(import_case("29-headings-on-every-page"), 1); }

@@ -16,7 +16,7 @@
 
 namespace nacre::measurement {
 
-inline constexpr double kModulusPa = 1.2e9, kToughnessPa = 0.120e6, kRatePerS = 3.70e-4;
+inline constexpr double kLayoutModulusPa = 1.2e9, kLayoutToughnessPa = 0.120e6, kLayoutRatePerS = 3.70e-4;
 
 inline std::string all_of(const Import& import) {
   std::string text;
@@ -61,9 +61,9 @@ class Layouts : public testing::Test {
     const Import import = this->import(text, columns, cells);
     ASSERT_EQ(import.specimens.size(), 1U) << text.substr(0, 200) << "\n" << all_of(import);
     SCOPED_TRACE(text.substr(0, 200));
-    EXPECT_NEAR(import.specimens[0].test.modulus_pa, kModulusPa, 0.005 * kModulusPa) << all_of(import);
-    EXPECT_NEAR(import.specimens[0].test.toughness_pa, kToughnessPa, 0.005 * kToughnessPa);
-    EXPECT_NEAR(import.specimens[0].record.conditions.strain_rate_per_s, kRatePerS, 0.005 * kRatePerS);
+    EXPECT_NEAR(import.specimens[0].test.modulus_pa, kLayoutModulusPa, 0.005 * kLayoutModulusPa) << all_of(import);
+    EXPECT_NEAR(import.specimens[0].test.toughness_pa, kLayoutToughnessPa, 0.005 * kLayoutToughnessPa);
+    EXPECT_NEAR(import.specimens[0].record.conditions.strain_rate_per_s, kLayoutRatePerS, 0.005 * kLayoutRatePerS);
   }
   void expect_refused(const std::string& text, const std::string& reason, const std::string& columns = "",
                       const std::string& cells = "") const {

@@ -13,7 +13,7 @@
 namespace nacre::runtime {
 namespace {
 
-using State = SupervisedNode::State;
+using NodeState = SupervisedNode::State;
 using testing::HasSubstr;
 
 /// A node whose program ends at once with exit status 1, and what is said of it.
@@ -31,7 +31,7 @@ class MortalNode : public testing::Test {
     std::ofstream(program_) << "#!/bin/sh\nexit 1\n";
     std::filesystem::permissions(program_, std::filesystem::perms::owner_all);
   }
-  void supervise_until(State state) {
+  void supervise_until(NodeState state) {
     for (int turn = 0; turn < 1000 && node_->state() != state; ++turn) {
       if (const auto news = node_->supervise(SupervisedNode::Clock::now())) said_ += *news + "\n";
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -46,19 +46,19 @@ class MortalNode : public testing::Test {
 };
 
 TEST_F(MortalNode, AStartThatDoesNotSucceedIsADeathUnderTheBudget) {
-  supervise_until(State::restarting);
+  supervise_until(NodeState::restarting);
   std::filesystem::remove(program_);
-  supervise_until(State::failed);
+  supervise_until(NodeState::failed);
   EXPECT_THAT(said_, HasSubstr("cannot be started: No such file"));
   EXPECT_THAT(said_, HasSubstr("node died too often"));
 }
 
 TEST_F(MortalNode, AProgramThatComesBackInTimeIsStarted) {
-  supervise_until(State::restarting);
+  supervise_until(NodeState::restarting);
   std::filesystem::remove(program_);
   EXPECT_THAT(node_->supervise(SupervisedNode::Clock::now()).value_or(""), HasSubstr("cannot be started"));
   write_program();
-  supervise_until(State::starting);
+  supervise_until(NodeState::starting);
   EXPECT_THAT(said_, HasSubstr("node started again"));
 }
 

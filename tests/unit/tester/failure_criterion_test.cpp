@@ -47,27 +47,27 @@ TEST(FailureCriterion, TailIsScaledAndTheEffectAddsToIt) {
   EXPECT_EQ(tail(CriterionKind::element, 1.0, 2), 1.0);
 }
 
-Simulation question() {
+Simulation of_rigid() {
   return {.design = pattern::Mixture{1.0}, .parameters = material::thesis_parameters(), .conditions = {}};
 }
 
 TEST(FailureCriterion, IsPartOfTheKeyOfAFractureTest) {
-  const std::string plain = simulation_key(question(), TestKind::toughness);
-  Simulation other = question();
+  const std::string plain = simulation_key(of_rigid(), TestKind::toughness);
+  Simulation other = of_rigid();
   other.parameters.criterion = {.radius_m = 1e-3, .softening = 1.0};
   EXPECT_EQ(simulation_key(other, TestKind::toughness), plain) << "the thesis' criterion has neither";
   for (const CriterionKind kind : {CriterionKind::neighbourhood, CriterionKind::crack_band}) {
-    Simulation first = question(), second = question();
+    Simulation first = of_rigid(), second = of_rigid();
     first.parameters.criterion.kind = second.parameters.criterion.kind = kind;
     second.parameters.criterion.radius_m *= 2.0, second.parameters.criterion.softening *= 2.0;
     EXPECT_NE(simulation_key(first, TestKind::toughness), plain);
     EXPECT_NE(simulation_key(first, TestKind::toughness), simulation_key(second, TestKind::toughness));
-    EXPECT_EQ(simulation_key(first, TestKind::modulus), simulation_key(question(), TestKind::modulus));
+    EXPECT_EQ(simulation_key(first, TestKind::modulus), simulation_key(of_rigid(), TestKind::modulus));
   }
 }
 
 TEST(FailureCriterion, OutOfRangeIsAFault) {
-  Simulation simulation = question();
+  Simulation simulation = of_rigid();
   simulation.parameters.criterion = {.kind = CriterionKind::neighbourhood, .radius_m = 0.0};
   EXPECT_NE(simulation_fault(simulation, TestKind::toughness).find("radius"), std::string::npos);
   EXPECT_EQ(simulation_fault(simulation, TestKind::modulus), "");
