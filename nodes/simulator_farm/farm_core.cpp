@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/hash.hpp"
 #include "base/statistics.hpp"
 #include "simulator_farm/test_request.hpp"
 #include "tester/simulation_key.hpp"
@@ -52,18 +53,18 @@ runtime::Outputs FarmCore::step(const runtime::Input& input) {
 void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   auto read = wire::read<wire::SimulateRequest>(payload);
   if (!read) return warn(outputs, fmt::format("a SIMULATE is ignored: {}", read.error().message));
-  const auto [position, is_new] = requests_.try_emplace(read->request_id);
-  OpenRequest& entry = position->second;
+  const std::string content = content_hash(wire::write(*read));
+  const auto [position, is_new] = requests_.try_emplace(read->request_id, Request{.content = content});
+  Request& entry = position->second;
   if (!is_new) {
-    if (!(entry.request == *read)) {
+    if (entry.content != content) {
       warn(outputs, fmt::format("request {} came again with other content and is ignored", read->request_id));
     } else if (entry.missing == 0) {
-      respond(entry.request, outputs);
+      respond(*read, outputs);
     }
     return;
   }
-  entry.request = *std::move(read);
-  const wire::SimulateRequest& request = entry.request;
+  const wire::SimulateRequest& request = *read;
   if (open_requests_ == 0) asked_ = done_ = 0;
   const std::vector<WantedTest> tests = tests_of(request);
   for (const pattern::Design& design : request.designs) {
@@ -80,11 +81,9 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
       if (!open_test.running) launch(key, request, design, wanted.extras, outputs);
     }
   }
-  if (entry.missing == 0) {
-    respond(request, outputs);
-  } else {
-    ++open_requests_;
-  }
+  if (entry.missing == 0) return respond(request, outputs);
+  ++open_requests_;
+  entry.request = *std::move(read);
 }
 
 void FarmCore::launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
@@ -122,7 +121,7 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
   }
   const std::vector<std::string> waiting = std::exchange(open_test.waiting, {});
   for (const std::string& id : waiting) {
-    OpenRequest& request = requests_.at(id);
+    Request& request = requests_.at(id);
     const Extras wanted = wanted_extras(request.request, open_test.test, open_test.specimen);
     if (!open_test.suffices(wanted)) {
       open_test.waiting.push_back(id);
@@ -133,7 +132,7 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
     ++done_;
     if (--request.missing == 0) {
       --open_requests_;
-      respond(request.request, outputs);
+      respond(std::exchange(request.request, {}), outputs);
     }
   }
 }

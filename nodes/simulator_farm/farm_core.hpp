@@ -42,9 +42,10 @@ class FarmCore : public runtime::NodeCore {
     /// Why whoever wants these gets no number; empty: the numbers are there.
     const std::string& failure(const Extras& wanted) const;
   };
-  struct OpenRequest {
-    wire::SimulateRequest request;
-    int missing = 0;  ///< tests that are not done
+  struct Request {
+    std::string content;            ///< hash; another request may not take its id
+    wire::SimulateRequest request;  ///< while tests are missing: whoever asks again brings it
+    int missing = 0;                ///< tests that are not done
   };
 
   void accept(const std::string& payload, runtime::Outputs& outputs);
@@ -56,8 +57,8 @@ class FarmCore : public runtime::NodeCore {
   void respond(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
   wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
 
-  std::map<std::string, OpenTest> tests_;        // by simulation_key
-  std::map<std::string, OpenRequest> requests_;  // by request_id
+  std::map<std::string, OpenTest> tests_;    // by simulation_key
+  std::map<std::string, Request> requests_;  // by request_id
   int open_requests_ = 0;
   int asked_ = 0;  // tests of the present busy spell
   int done_ = 0;
