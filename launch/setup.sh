@@ -65,7 +65,7 @@ show_steps() {
   local line
   while IFS= read -r line; do
     [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
-    if ((BASH_REMATCH[1] % 40 == 0 || BASH_REMATCH[1] == BASH_REMATCH[2])); then
+    if ((BASH_REMATCH[1] > 0 && BASH_REMATCH[1] % 40 == 0 || BASH_REMATCH[1] == BASH_REMATCH[2])); then
       say "  step ${BASH_REMATCH[1]} of ${BASH_REMATCH[2]}"
     fi
   done

@@ -68,8 +68,9 @@ class Watch {
       if (suffix != ".lcm" && suffix != ".db" && suffix != ".html" && suffix != ".log") continue;
       note(time_s, round, fs::relative(file, run).string(), "bytes", static_cast<double>(entry.file_size(missing)));
     }
-    note(time_s, round, "simulations.db", "bytes",
-         static_cast<double>(fs::file_size(run.parent_path() / "simulations.db", missing)));
+    const fs::path simulations = run.parent_path() / "simulations.db";  // none of made-up ones
+    if (fs::exists(simulations))
+      note(time_s, round, "simulations.db", "bytes", static_cast<double>(fs::file_size(simulations, missing)));
     table_.flush();
   }
 
