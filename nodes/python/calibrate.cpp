@@ -16,7 +16,7 @@ namespace {
 
 namespace py = pybind11;
 
-struct Arguments {
+struct CalibrateArguments {
   py::object start, ranges, out;
   std::string fidelity;
   py::object begin_at;
@@ -27,7 +27,7 @@ struct Arguments {
   std::int64_t seed;
 };
 
-void check_numbers(const Arguments& given) {
+void check_numbers(const CalibrateArguments& given) {
   require_range("budget", given.budget, 0, 1'000'000);
   require_range("modulus_budget", given.modulus_budget, 0, 1'000'000);
   require_range("hold_out", given.hold_out, 0, 100'000);
@@ -35,7 +35,7 @@ void check_numbers(const Arguments& given) {
   require_range("ensemble", given.ensemble, 0, 1000);
 }
 
-sysid::ToughnessSearch search_from(const Arguments& given) {
+sysid::ToughnessSearch search_from(const CalibrateArguments& given) {
   const auto search = sysid::toughness_search_from_string(given.search);
   if (!search) throw InputError("search: " + search.error().message);
   if (given.searches > 1 && !sysid::draws(*search))
@@ -45,7 +45,7 @@ sysid::ToughnessSearch search_from(const Arguments& given) {
 }
 
 /// The cheaper fidelity that is calibrated first.
-void add_beginning(sysid::OfflineSettings& settings, const Arguments& given) {
+void add_beginning(sysid::OfflineSettings& settings, const CalibrateArguments& given) {
   if (given.begin_at.is_none()) return;
   settings.begin_at = fidelity_from(py::str(given.begin_at));
   if (*settings.begin_at >= settings.fidelity)
@@ -55,7 +55,7 @@ void add_beginning(sysid::OfflineSettings& settings, const Arguments& given) {
       sysid::read_discretisation_floor(discretisation_floor_file(given.discretisation_floor), *settings.begin_at);
 }
 
-sysid::OfflineSettings settings_from(const Arguments& given) {
+sysid::OfflineSettings settings_from(const CalibrateArguments& given) {
   check_numbers(given);
   sysid::OfflineSettings settings;
   settings.fidelity = fidelity_from(given.fidelity);
@@ -77,7 +77,7 @@ sysid::OfflineSettings settings_from(const Arguments& given) {
   return settings;
 }
 
-py::object calibrate(const py::object& folder, const Arguments& given, const py::object& progress) {
+py::object calibrate(const py::object& folder, const CalibrateArguments& given, const py::object& progress) {
   const std::string out = path_from(given.out, "out");
   if (!out.empty())
     prepare_output_file(

@@ -20,7 +20,7 @@ namespace py = pybind11;
 using offline::SimulatedDesign;
 using offline::SimulateSettings;
 
-struct Arguments {
+struct SimulateArguments {
   std::string test, fidelity;
   std::optional<int> specimens;
   offline::ModelChoice model;
@@ -28,7 +28,7 @@ struct Arguments {
   int frame_count;  ///< 0: no films
 };
 
-SimulateSettings settings_from(const Arguments& given, const py::object& params) {
+SimulateSettings settings_from(const SimulateArguments& given, const py::object& params) {
   if (given.specimens) require_range("specimens", *given.specimens, 1, 1000);
   require_range("refine", given.refine, 1, 8);
   if (given.test != "modulus" && given.test != "toughness" && given.test != "both")
@@ -72,8 +72,7 @@ py::object entry_of(const Tested& each, const SimulateSettings& settings) {
   const py::dict entry = python_of(to_json(each.simulated, settings));
   if (entry.contains("error")) return entry;
   py::list curves;
-  for (const Result<tester::ToughnessResult>& pulled : each.simulated.pulled)
-    curves.append(python_of(pulled->curve));
+  for (const Result<tester::ToughnessResult>& pulled : each.simulated.pulled) curves.append(python_of(pulled->curve));
   entry["curves"] = curves;
   if (each.film && !*each.film)
     throw InputError::format("{}: no film: {}", each.simulated.argument, each.film->error().message);
@@ -81,7 +80,7 @@ py::object entry_of(const Tested& each, const SimulateSettings& settings) {
   return entry;
 }
 
-py::object simulate(const py::object& patterns, const py::object& params, const Arguments& given,
+py::object simulate(const py::object& patterns, const py::object& params, const SimulateArguments& given,
                     const py::object& progress) {
   const NamedDesigns asked = designs_from(patterns);
   const SimulateSettings settings = settings_from(given, params);
