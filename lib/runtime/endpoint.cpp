@@ -1,6 +1,7 @@
 #include "runtime/endpoint.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "wire/channels.hpp"
@@ -27,17 +28,17 @@ Result<std::string> Endpoint::offer(const Message& message) {
   if (const Result<void> sound = wire::check_outgoing(message.channel, message.payload); !sound) {
     return tl::unexpected(sound.error());
   }
-  const wire::Channel* channel = wire::find_channel(message.channel);
-  const std::string hash = wire::message_hash(message.channel, message.payload);
-  outbox_.offer(hash, message, wire::receivers_of(*channel, message.payload, participants_, node_));
-  return hash;
+  const Parcel parcel = parcel_of(message, std::ssize(offered_), participants_, node_);
+  offered_.push_back(message);
+  outbox_.offer(parcel);
+  return parcel.hash;
 }
 
 void Endpoint::pump(int timeout_ms, const std::function<void(const Received&)>& handler) {
   const std::int64_t end = steady_us() + std::int64_t{1000} * timeout_ms;
   std::int64_t now = steady_us();
   do {
-    for (const Message* message : outbox_.due(now)) bus_->publish(*message);
+    for (const std::int64_t place : outbox_.due(now)) bus_->publish(offered_.at(place));
     const std::int64_t until = std::min(end, outbox_.next_due().value_or(end));
     const int wait_ms = static_cast<int>(std::max<std::int64_t>(0, (until - now + 999) / 1000));
     bus_->receive(wait_ms, [&](const Received& received) {

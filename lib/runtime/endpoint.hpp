@@ -39,6 +39,7 @@ class Endpoint {
   std::unique_ptr<Bus> bus_;
   std::string node_;
   std::vector<std::string> participants_;
+  std::vector<Message> offered_;  ///< by place
   Outbox outbox_;
   std::map<std::string, std::string> refusals_;  ///< by hash
 };

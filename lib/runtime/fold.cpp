@@ -79,7 +79,7 @@ Result<void> Fold::output(const LogRecord& record) {
     return fail("{}: recorded against now: {}", place(record), content_difference(record.data, now.payload));
   }
   ++outputs;
-  if (on_output) on_output(now);
+  if (on_output) on_output(now, record.offset);
   return {};
 }
 

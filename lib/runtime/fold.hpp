@@ -22,7 +22,8 @@ class Fold {
 
   std::function<void(const Message&)> on_message_input;                    ///< inputs from the bus
   std::function<void(const Message&, const std::string& why)> on_refused;  ///< an input from the bus
-  std::function<void(const Message&)> on_output;                           ///< journaled outputs, in order
+  /// Journaled outputs, in order; `place`: byte at which the record starts.
+  std::function<void(const Message&, std::int64_t place)> on_output;
   std::function<void(const std::string& hash, const std::string& node, std::int64_t journal)> on_acknowledged;
   /// Called with the work that a journaled result belongs to; an error stops the fold.
   std::function<Result<void>(const Compute&, const std::string& result)> on_work_done;

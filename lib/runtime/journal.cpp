@@ -131,6 +131,15 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   return journal;
 }
 
+Message Journal::sent_message(std::int64_t place) const {
+  std::optional<LogRecord> record = LogReader(path_, place).next();
+  if (!record || !record->channel.starts_with(kOutPrefix)) {
+    throw InputError::format("{}: no message that was sent at byte {}: changed while the node used it", path_.string(),
+                             place);
+  }
+  return {record->channel.substr(kOutPrefix.size()), std::move(record->data)};
+}
+
 Result<void> Journal::append(std::int64_t utime, std::string_view channel, std::string_view data, bool to_disk) {
   Result<void> written = writer_->append(utime, channel, data);
   if (written) written = writer_->flush();

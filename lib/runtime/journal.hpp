@@ -56,8 +56,10 @@ class Journal {
   /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off and after each
   /// start of the machine, which may have lost the tail whole.
   std::int64_t identity() const { return identity_; }
-  /// Its length.
+  /// Its length, which is where the next record will start.
   std::int64_t bytes() const { return bytes_; }
+  /// The message that the core sent, from its record at byte `place`. Throws InputError where there is none.
+  Message sent_message(std::int64_t place) const;
   /// What was cut off, as a sentence; empty when nothing was.
   const std::string& warning() const { return warning_; }
   /// Adds a record and flushes; `to_disk` also waits for the disk.

@@ -148,7 +148,7 @@ class NodeShell {
     fold.on_refused = [this](const Message& m, const std::string& why) {
       inbox_.refuse(wire::message_hash(m.channel, m.payload), why);
     };
-    fold.on_output = [this](const Message& m) { offer(m); };
+    fold.on_output = [this](const Message& m, std::int64_t place) { offer(m, place); };
     fold.on_acknowledged = [this](const std::string& hash, const std::string& node, std::int64_t journal) {
       outbox_.acknowledge(hash, node, 0, journal);
     };
@@ -276,8 +276,9 @@ class NodeShell {
     for (const LogLine& line : outputs.log) log_.write(line.level, line.text);
     for (const Message& message : outputs.messages) {
       expect_sound(message);
+      const std::int64_t place = journal_->bytes();
       write_down(std::string(kOutPrefix) + message.channel, message.payload);
-      offer(message);
+      offer(message, place);
     }
     for (Compute& compute : outputs.computes) {
       if (!executor_->knows(compute.kind)) {
@@ -296,17 +297,16 @@ class NodeShell {
       throw NodeFailure(fmt::format("the core's message on {} is invalid: {}", message.channel, sound.error().message));
   }
 
-  void offer(const Message& message) {
-    const wire::Channel* channel = wire::find_channel(message.channel);
-    if (!channel) return;
+  /// `place`: of the message's record in the journal, whose bytes are read again for each sending. A run sends more
+  /// than a node's memory should hold, and any of it may be wanted again by a node that lost its journal.
+  void offer(const Message& message, std::int64_t place) {
     if (message.channel == "SIMULATE") requests_.ask(wire::request_id_of(message.channel, message.payload));
-    outbox_.offer(wire::message_hash(message.channel, message.payload), message,
-                  wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
+    outbox_.offer(parcel_of(message, place, options_.participants, options_.node));
   }
 
   void send_due() {
     const std::int64_t now = steady_us();
-    for (const Message* message : outbox_.due(now)) bus_->publish(*message);
+    for (const std::int64_t place : outbox_.due(now)) bus_->publish(journal_->sent_message(place));
     if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
       wire::Ack ack;
       ack.journal = journal_->identity();

@@ -6,16 +6,41 @@
 
 namespace nacre::runtime {
 
-void Outbox::offer(const std::string& hash, Message message, const std::vector<std::string>& receivers) {
-  const auto [position, is_new] = entries_.try_emplace(hash);
+Parcel parcel_of(const Message& message, std::int64_t place, const std::vector<std::string>& participants,
+                 std::string_view self) {
+  Parcel parcel;
+  parcel.hash = wire::message_hash(message.channel, message.payload);
+  parcel.place = place;
+  parcel.size_bytes = message.payload.size();
+  if (wire::is_response(message.channel)) parcel.request_id = wire::request_id_of(message.channel, message.payload);
+  parcel.receivers =
+      wire::receivers_of(*wire::find_channel(message.channel), message.payload, participants, std::string(self));
+  return parcel;
+}
+
+Outbox::Delivery* Outbox::OfferedMessage::to(std::string_view node) {
+  const auto found = std::ranges::find_if(deliveries, [&](const Delivery& each) { return each.to->node == node; });
+  return found == deliveries.end() ? nullptr : &*found;
+}
+
+bool Outbox::OfferedMessage::is_waiting() const { return !std::ranges::all_of(deliveries, &Delivery::acknowledged); }
+
+Outbox::Peer& Outbox::peer(const std::string& node) {
+  Peer& peer = peers_[node];
+  peer.node = node;
+  return peer;
+}
+
+void Outbox::offer(const Parcel& parcel) {
+  const auto [position, is_new] = entries_.try_emplace(parcel.hash);
   if (!is_new) return;
   OfferedMessage& entry = position->second;
-  if (wire::is_response(message.channel)) entry.request_id = wire::request_id_of(message.channel, message.payload);
-  entry.message = std::move(message);
+  entry.place = parcel.place;
+  entry.size_bytes = parcel.size_bytes;
+  entry.request_id = parcel.request_id;
   entry.order = next_order_++;
-  entry.receivers = receivers;
-  entry.waiting = {receivers.begin(), receivers.end()};
-  if (receivers.empty()) entry.send_once = true;
+  entry.deliveries.reserve(parcel.receivers.size());
+  for (const std::string& node : parcel.receivers) entry.deliveries.push_back({&peer(node)});
   restart(entry);
 }
 
@@ -30,37 +55,37 @@ bool Outbox::acknowledge(const std::string& hash, const std::string& node, std::
   const auto found = entries_.find(hash);
   if (found == entries_.end()) return false;
   OfferedMessage& entry = found->second;
-  if (entry.waiting.erase(node) == 0) return false;
-  entry.acknowledged[node] = {epoch, journal};
-  Peer& peer = peers_[node];
-  if (peer.journal != journal) peer.unchecked = true;
-  if (entry.waiting.empty()) active_.erase(entry.order);
+  Delivery* delivery = entry.to(node);
+  if (!delivery || delivery->acknowledged) return false;
+  delivery->acknowledged = true;
+  delivery->epoch = epoch;
+  delivery->journal = journal;
+  if (delivery->to->journal != journal) delivery->to->unchecked = true;
+  if (!entry.is_waiting()) active_.erase(entry.order);
   return true;
 }
 
 void Outbox::saw(const std::string& node, std::int64_t epoch, std::int64_t journal) {
-  Peer& peer = peers_[node];
-  const bool restarted = peer.epoch != epoch;
-  const bool check = peer.journal != journal || peer.unchecked;
-  peer = {epoch, journal, false};
+  Peer& seen = peer(node);
+  const bool restarted = seen.epoch != epoch;
+  const bool check = seen.journal != journal || seen.unchecked;
+  seen = {node, epoch, journal, false};
   if (!restarted && !check) return;
   for (auto& [hash, entry] : entries_) {
-    const auto acknowledged = entry.acknowledged.find(node);
-    const bool lost = acknowledged != entry.acknowledged.end() && acknowledged->second.journal != journal;
-    if (lost) {
-      entry.acknowledged.erase(acknowledged);
-      entry.waiting.insert(node);
-    }
-    if (lost || (restarted && entry.waiting.count(node))) restart(entry);
+    Delivery* delivery = entry.to(node);
+    if (!delivery) continue;
+    const bool lost = delivery->acknowledged && delivery->journal != journal;
+    if (lost) delivery->acknowledged = false;
+    if (lost || (restarted && !delivery->acknowledged)) restart(entry);
   }
 }
 
 void Outbox::respond_again(const std::string& request_id, const std::string& node, std::int64_t epoch) {
   for (auto& [hash, entry] : entries_) {
-    if (entry.request_id != request_id || entry.waiting.count(node)) continue;
-    const auto acknowledged = entry.acknowledged.find(node);
-    if (acknowledged == entry.acknowledged.end() || acknowledged->second.epoch == epoch) continue;
-    entry.waiting.insert(node);
+    if (entry.request_id != request_id) continue;
+    Delivery* delivery = entry.to(node);
+    if (!delivery || !delivery->acknowledged || delivery->epoch == epoch) continue;
+    delivery->acknowledged = false;
     restart(entry);
   }
 }
@@ -69,33 +94,34 @@ void Outbox::respond_again(const std::string& request_id, const std::string& nod
 /// up the others. Those that do not fit wait in order.
 std::vector<Outbox::OfferedMessage*> Outbox::admitted() const {
   std::vector<OfferedMessage*> entries;
-  std::map<std::string_view, std::size_t> in_flight;
+  std::map<const Peer*, std::size_t> in_flight;
   for (const auto& [order, entry] : active_) {
-    const std::size_t size = entry->message.payload.size();
-    const auto has_room = [&](const std::string& node) {
-      const std::size_t bytes = in_flight[node];
-      return bytes == 0 || bytes + size <= settings_.window_bytes;
+    const auto has_room = [&](const Delivery& delivery) {
+      if (delivery.acknowledged) return false;
+      const std::size_t bytes = in_flight[delivery.to];
+      return bytes == 0 || bytes + entry->size_bytes <= settings_.window_bytes;
     };
-    if (!entry->send_once && std::ranges::none_of(entry->waiting, has_room)) continue;
-    for (const std::string& node : entry->waiting) in_flight[node] += size;
+    if (!entry->deliveries.empty() && std::ranges::none_of(entry->deliveries, has_room)) continue;
+    for (const Delivery& each : entry->deliveries)
+      if (!each.acknowledged) in_flight[each.to] += entry->size_bytes;
     entries.push_back(entry);
   }
   return entries;
 }
 
-std::vector<const Message*> Outbox::due(std::int64_t now_us) {
-  std::vector<const Message*> messages;
+std::vector<std::int64_t> Outbox::due(std::int64_t now_us) {
+  std::vector<std::int64_t> places;
   for (OfferedMessage* entry : admitted()) {
     if (entry->next_us > now_us) continue;
     if (entry->sent) ++retries_;
     entry->sent = true;
-    messages.push_back(&entry->message);
+    places.push_back(entry->place);
     entry->interval_us =
         entry->interval_us == 0 ? settings_.first_retry_us : std::min(2 * entry->interval_us, settings_.last_retry_us);
     entry->next_us = now_us + entry->interval_us;
-    if (entry->send_once) active_.erase(entry->order);
+    if (entry->deliveries.empty()) active_.erase(entry->order);
   }
-  return messages;
+  return places;
 }
 
 std::optional<std::int64_t> Outbox::next_due() const {
@@ -107,8 +133,12 @@ std::optional<std::int64_t> Outbox::next_due() const {
 }
 
 std::set<std::string> Outbox::waiting_for(const std::string& hash) const {
+  std::set<std::string> nodes;
   const auto found = entries_.find(hash);
-  return found == entries_.end() ? std::set<std::string>{} : found->second.waiting;
+  if (found == entries_.end()) return nodes;
+  for (const Delivery& each : found->second.deliveries)
+    if (!each.acknowledged) nodes.insert(each.to->node);
+  return nodes;
 }
 
 void Inbox::owe(const std::string& hash, std::int64_t now_us) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -23,13 +24,26 @@ struct ReliableSettings {
   std::int64_t ack_delay_us = 20'000;
 };
 
+/// A message to be delivered. Its bytes are kept by whoever offers it: a node's stand in its journal.
+struct Parcel {
+  std::string hash;
+  std::int64_t place = 0;  ///< by which the owner finds the bytes again
+  std::size_t size_bytes = 0;
+  std::string request_id;  ///< of a response
+  std::vector<std::string> receivers;
+};
+
+/// What `self` delivers for a message whose bytes it keeps at `place`; `participants`: the nodes of the run.
+Parcel parcel_of(const Message& message, std::int64_t place, const std::vector<std::string>& participants,
+                 std::string_view self);
+
 /// Messages on their way out, each until every receiver has acknowledged it.
 class Outbox {
  public:
   explicit Outbox(ReliableSettings settings = {}) : settings_(settings) {}
 
   /// Takes a message. One that is already known (same hash) is not taken twice.
-  void offer(const std::string& hash, Message message, const std::vector<std::string>& receivers);
+  void offer(const Parcel& parcel);
 
   /// `node` has the message in its journal of that identity. True when that was news (worth writing down).
   bool acknowledge(const std::string& hash, const std::string& node, std::int64_t epoch, std::int64_t journal);
@@ -41,8 +55,8 @@ class Outbox {
   /// `node` sent its request again from a new process: the responses are offered to it once more.
   void respond_again(const std::string& request_id, const std::string& node, std::int64_t epoch);
 
-  /// Messages to send now; each counts as sent.
-  std::vector<const Message*> due(std::int64_t now_us);
+  /// Places of the messages to send now; each counts as sent.
+  std::vector<std::int64_t> due(std::int64_t now_us);
   /// When due() has something next; nothing when it will not before something happens.
   std::optional<std::int64_t> next_due() const;
 
@@ -54,27 +68,32 @@ class Outbox {
   bool knows(const std::string& hash) const { return entries_.count(hash) != 0; }
 
  private:
-  struct Acknowledgement {
-    std::int64_t epoch = 0;
-    std::int64_t journal = 0;
-  };
-  struct OfferedMessage {
-    Message message;
-    std::string request_id;  ///< of a response
-    std::vector<std::string> receivers;
-    std::set<std::string> waiting;                        ///< receivers that have not acknowledged
-    std::map<std::string, Acknowledgement> acknowledged;  ///< by receiver
-    std::int64_t next_us = 0;
-    std::int64_t interval_us = 0;  ///< 0: due at once
-    std::uint64_t order = 0;
-    bool sent = false;
-    bool send_once = false;  ///< nobody must acknowledge
-  };
   struct Peer {
+    std::string node;
     std::int64_t epoch = 0;
     std::int64_t journal = 0;
     bool unchecked = false;  ///< acknowledged something for another journal than the one last seen
   };
+  struct Delivery {
+    Peer* to = nullptr;
+    std::int64_t epoch = 0, journal = 0;  ///< of the acknowledgement
+    bool acknowledged = false;
+  };
+  // Kept for as long as a receiver may lose its journal, so for the whole run.
+  struct OfferedMessage {
+    std::int64_t place = 0;
+    std::size_t size_bytes = 0;
+    std::string request_id;
+    std::vector<Delivery> deliveries;  ///< none: sent once, nobody must acknowledge
+    std::int64_t next_us = 0;
+    std::int64_t interval_us = 0;  ///< 0: due at once
+    std::uint64_t order = 0;
+    bool sent = false;
+
+    Delivery* to(std::string_view node);
+    bool is_waiting() const;
+  };
+  Peer& peer(const std::string& node);
   void restart(OfferedMessage& entry);
   std::vector<OfferedMessage*> admitted() const;
 

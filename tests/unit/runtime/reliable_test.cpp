@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "base/random.hpp"
 #include "wire/convert.hpp"
@@ -20,10 +22,28 @@ Message text_message(const std::string& text, std::size_t size = 0) {
 
 std::string hash_of(const Message& message) { return wire::message_hash(message.channel, message.payload); }
 
-/// A node as far as delivery is concerned. Its journal is what `taken` and `sent` hold.
-struct Endpoint {
-  std::string name;
+/// An outbox with the messages that it delivers.
+class Sender {
+ public:
   Outbox outbox;
+
+  void offer(const std::string& hash, const Message& message, const std::vector<std::string>& receivers) {
+    outbox.offer({hash, std::ssize(offered_), message.payload.size(), "", receivers});
+    offered_.push_back(message);
+  }
+  std::vector<Message> due(std::int64_t now_us) {
+    std::vector<Message> messages;
+    for (const std::int64_t place : outbox.due(now_us)) messages.push_back(offered_.at(place));
+    return messages;
+  }
+
+ private:
+  std::vector<Message> offered_;
+};
+
+/// A node as far as delivery is concerned. Its journal is what `taken` and `sent` hold.
+struct Endpoint : Sender {
+  std::string name;
   Inbox inbox;
   std::map<std::string, int> taken;  ///< payload -> how often it reached the core
   std::int64_t epoch = 1;
@@ -43,14 +63,14 @@ class LossyNetwork {
   int sent = 0;
 
   void offer(const std::string& from, const Message& message, const std::vector<std::string>& to) {
-    endpoints[from].outbox.offer(hash_of(message), message, to);
+    endpoints[from].offer(hash_of(message), message, to);
     receivers_[hash_of(message)] = {to.begin(), to.end()};
   }
 
   void step() {
     now += kMillisecond;
     for (auto& [name, endpoint] : endpoints) {
-      for (const Message* message : endpoint.outbox.due(now)) broadcast(name, *message);
+      for (const Message& message : endpoint.due(now)) broadcast(name, message);
       for (const std::string& hash : endpoint.inbox.due(now)) broadcast(name, {"ACK", hash});
       if (now % (500 * kMillisecond) == 0) broadcast(name, {"STATUS", ""});
     }
@@ -165,11 +185,12 @@ TEST(Delivery, AReceiverThatLostItsJournalIsToldEverythingAgain) {
 }
 
 TEST(Outbox, BacksOffFrom50MillisecondsToASecond) {
-  Outbox outbox;
-  outbox.offer("h", text_message("m"), {"b"});
+  Sender sender;
+  Outbox& outbox = sender.outbox;
+  sender.offer("h", text_message("m"), {"b"});
   std::vector<std::int64_t> times;
   for (std::int64_t now = 0; now < 5000 * kMillisecond; now += kMillisecond) {
-    if (!outbox.due(now).empty()) times.push_back(now / kMillisecond);
+    if (!sender.due(now).empty()) times.push_back(now / kMillisecond);
   }
   EXPECT_EQ(times, (std::vector<std::int64_t>{0, 50, 150, 350, 750, 1550, 2550, 3550, 4550}));
   EXPECT_TRUE(outbox.acknowledge("h", "b", 1, 1));
@@ -178,72 +199,81 @@ TEST(Outbox, BacksOffFrom50MillisecondsToASecond) {
 }
 
 TEST(Outbox, KeepsTheWindowPerReceiverAndTheOrder) {
-  Outbox outbox;
+  Sender sender;
+  Outbox& outbox = sender.outbox;
   for (int i = 0; i < 10; ++i)
-    outbox.offer("dead" + std::to_string(i), text_message(std::to_string(i), 50'000), {"dead"});
-  outbox.offer("alive", text_message("x", 50'000), {"alive"});
-  const auto first = outbox.due(0);
+    sender.offer("dead" + std::to_string(i), text_message(std::to_string(i), 50'000), {"dead"});
+  sender.offer("alive", text_message("x", 50'000), {"alive"});
+  const auto first = sender.due(0);
   ASSERT_EQ(first.size(), 5u);  // four of 50 kB for the one that is down, and the one behind them for the other
-  EXPECT_EQ(first[0]->payload[0], '0');
-  EXPECT_EQ(first[4]->payload[0], 'x');
+  EXPECT_EQ(first[0].payload[0], '0');
+  EXPECT_EQ(first[4].payload[0], 'x');
   outbox.acknowledge("dead0", "dead", 1, 1);
-  const auto next = outbox.due(kMillisecond);
+  const auto next = sender.due(kMillisecond);
   ASSERT_EQ(next.size(), 1u);
-  EXPECT_EQ(next[0]->payload[0], '4');
+  EXPECT_EQ(next[0].payload[0], '4');
 }
 
 TEST(Outbox, ARestartedReceiverIsOfferedTheOpenMessagesAtOnce) {
-  Outbox outbox;
+  Sender sender;
+  Outbox& outbox = sender.outbox;
   outbox.saw("b", 1, 7);
-  outbox.offer("open", text_message("open"), {"b"});
-  outbox.offer("done", text_message("done"), {"b"});
-  outbox.due(0);
+  sender.offer("open", text_message("open"), {"b"});
+  sender.offer("done", text_message("done"), {"b"});
+  sender.due(0);
   outbox.acknowledge("done", "b", 1, 7);
-  EXPECT_TRUE(outbox.due(10).empty());
+  EXPECT_TRUE(sender.due(10).empty());
   outbox.saw("b", 2, 7);  // same journal
-  const auto again = outbox.due(20);
+  const auto again = sender.due(20);
   ASSERT_EQ(again.size(), 1u);
-  EXPECT_EQ(again[0]->payload, "open");
+  EXPECT_EQ(again[0].payload, "open");
   outbox.saw("b", 3, 8);  // the journal was lost
-  EXPECT_EQ(outbox.due(30).size(), 2u);
+  EXPECT_EQ(sender.due(30).size(), 2u);
 }
 
 TEST(Outbox, AnAcknowledgementIsWorthAsMuchAsItsJournal) {
-  Outbox outbox;  // which has not heard a STATUS yet
-  for (const char* hash : {"early", "late"}) outbox.offer(hash, text_message(hash), {"b"});
-  outbox.due(0);
+  Sender sender;
+  Outbox& outbox = sender.outbox;  // which has not heard a STATUS yet
+  for (const char* hash : {"early", "late"}) sender.offer(hash, text_message(hash), {"b"});
+  sender.due(0);
   outbox.acknowledge("early", "b", 1, 7);
   outbox.acknowledge("late", "b", 2, 8);  // by the process that began a new journal
   outbox.saw("b", 2, 8);
-  const auto again = outbox.due(10);
+  const auto again = sender.due(10);
   ASSERT_EQ(again.size(), 1u);
-  EXPECT_EQ(again[0]->payload, "early");
+  EXPECT_EQ(again[0].payload, "early");
   outbox.acknowledge("early", "b", 1, 7);  // the old process' word, overtaken by the STATUS
   EXPECT_EQ(outbox.unacknowledged(), 0);
   outbox.saw("b", 2, 8);
-  EXPECT_EQ(outbox.due(20).size(), 1u);
+  EXPECT_EQ(sender.due(20).size(), 1u);
 }
 
 TEST(Outbox, AResponseIsRepeatedForARequesterThatAsksAgainInANewProcess) {
   wire::SimulateResult result{
       "proposal_agent/0/1", 0, 1, 0, {{pattern::Mixture{1.0}, "", 1e9, 0.0, 0.0, 0, 0.0, 0.0, {}}}};
+  const Message response{"SIMULATED", wire::write(result)};
+  const Parcel parcel = parcel_of(response, 5, {"analyser", "proposal_agent", "simulator_farm"}, "simulator_farm");
+  ASSERT_EQ(parcel.receivers, std::vector<std::string>{"proposal_agent"});
+  EXPECT_EQ(parcel.hash, hash_of(response));
+  EXPECT_EQ(parcel.size_bytes, response.payload.size());
   Outbox outbox;
   outbox.saw("proposal_agent", 1, 1);
-  outbox.offer("h", {"SIMULATED", wire::write(result)}, {"proposal_agent"});
+  outbox.offer(parcel);
   outbox.due(0);
-  outbox.acknowledge("h", "proposal_agent", 1, 1);
+  outbox.acknowledge(parcel.hash, "proposal_agent", 1, 1);
   outbox.respond_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
   EXPECT_EQ(outbox.unacknowledged(), 0);
   outbox.saw("proposal_agent", 2, 1);
   outbox.respond_again("proposal_agent/0/1", "proposal_agent", 2);
-  EXPECT_EQ(outbox.due(1).size(), 1u);
+  EXPECT_EQ(outbox.due(1), std::vector<std::int64_t>{5});
 }
 
 TEST(Outbox, AMessageForNobodyIsSentOnce) {
-  Outbox outbox;
-  outbox.offer("h", text_message("for a person"), {});
-  EXPECT_EQ(outbox.due(0).size(), 1u);
-  EXPECT_TRUE(outbox.due(10'000'000).empty());
+  Sender sender;
+  Outbox& outbox = sender.outbox;
+  sender.offer("h", text_message("for a person"), {});
+  EXPECT_EQ(sender.due(0).size(), 1u);
+  EXPECT_TRUE(sender.due(10'000'000).empty());
   EXPECT_EQ(outbox.unacknowledged(), 0);
 }
 
