@@ -25,6 +25,7 @@ constexpr const char* kRounds = "ROUND";
 constexpr double kTurnS = 0.05;
 constexpr double kFirstAskS = 1.0, kLastAskS = 60.0;  ///< between questions for what is open
 constexpr double kSilenceS = 60.0;
+constexpr double kFollowS = 3.0;  ///< of silence, after which the run may have gone on at another port
 
 Order order_of(wire::TestOrder message) {
   return {.round = message.round,
@@ -46,9 +47,8 @@ Heard heard(const runtime::Received& received) {
   return {received.message.channel, received.header.node, received.header.utime, json.dump()};
 }
 
-std::unique_ptr<runtime::Endpoint> join(const std::filesystem::path& folder, const std::string& name,
-                                        const std::set<std::string>& channels) {
-  const runtime::Manifest manifest = runtime::read_manifest(folder);
+std::unique_ptr<runtime::Endpoint> join(const std::filesystem::path& folder, const runtime::Manifest& manifest,
+                                        const std::string& name, const std::set<std::string>& channels) {
   const std::vector<std::string> nodes = game::read_scenario(folder / "scenario.toml").nodes();
   if (name.empty() || std::ranges::count(nodes, name) > 0)
     throw InputError::format("\"{}\" cannot be the name of a client: expected one that no node of the run has", name);
@@ -67,17 +67,41 @@ std::unique_ptr<runtime::Endpoint> join(const std::filesystem::path& folder, con
 }  // namespace
 
 struct Client::State {
+  std::filesystem::path run;
+  std::string name;
   std::set<std::string> wanted;  ///< channels of listen()
+  int port = 0;
   std::unique_ptr<runtime::Endpoint> endpoint;
   std::set<std::string> known;  ///< hashes of what came in, STATUS and the like aside
   std::deque<Order> orders;
   std::deque<Heard> heard;
   bool is_over = false;
-  double silence_s = 0.0;  ///< spent waiting since a node was last heard
+  double silence_s = 0.0;     ///< spent waiting since a node was last heard
+  double unfollowed_s = 0.0;  ///< of it, since the manifest was read
   double ask_after_s = 0.0, next_pause_s = kFirstAskS;
 
+  /// Joins the run where its manifest says that it is.
+  void enter() {
+    const runtime::Manifest manifest = runtime::read_manifest(run);
+    if (endpoint && manifest.port == port) return;
+    std::set<std::string> channels = wanted;
+    channels.insert({kOrders, kRounds});
+    endpoint = join(run, manifest, name, channels);
+    port = manifest.port;
+    ask_again_soon();
+  }
+
+  void follow() {
+    unfollowed_s = 0.0;
+    try {
+      enter();
+    } catch (const InputError&) {
+      // The folder cannot be read now: the endpoint that there is stays, and silence ends the game.
+    }
+  }
+
   void take(const runtime::Received& received) {
-    silence_s = 0.0;
+    silence_s = unfollowed_s = 0.0;
     const auto& [channel, payload] = received.message;
     const bool is_reliable = wire::find_channel(channel)->reliable;
     if (is_reliable && !known.insert(wire::message_hash(channel, payload)).second) return;
@@ -111,11 +135,14 @@ struct Client::State {
       if (ask_after_s <= 0.0) ask();
       ask_after_s -= kTurnS;
       silence_s += kTurnS;
+      unfollowed_s += kTurnS;
+      if (unfollowed_s > kFollowS) follow();
       endpoint->pump(static_cast<int>(1e3 * kTurnS), [this](const runtime::Received& received) { take(received); });
     }
   }
 
   Result<void> deliver(const runtime::Message& message, double patience_s) {
+    if (silence_s > kFollowS) follow();
     const Result<std::string> hash = endpoint->offer(message);
     if (!hash) return tl::unexpected(hash.error());
     endpoint->deliver(patience_s, [this](const runtime::Received& received) { take(received); });
@@ -128,10 +155,10 @@ struct Client::State {
 
 Client::Client(const std::filesystem::path& run, const std::string& name, const std::vector<std::string>& channels)
     : state_(std::make_unique<State>()) {
+  state_->run = run;
+  state_->name = name;
   state_->wanted = {channels.begin(), channels.end()};
-  std::set<std::string> all = state_->wanted;
-  all.insert({kOrders, kRounds});
-  state_->endpoint = join(run, name, all);
+  state_->enter();
 }
 
 Client::~Client() = default;

@@ -40,7 +40,8 @@ struct Heard {
   std::string json;        ///< its fields, with names and numbers as in the .lcm file of its type
 };
 
-/// To be used from one thread. What comes in while the program does other things waits.
+/// To be used from one thread. What comes in while the program does other things waits. A run that was stopped and goes
+/// on at another port is followed there.
 class Client {
  public:
   /// Joins the run in a folder (`logs/latest`) as `name`, which no other program of the run has. `channels`: what

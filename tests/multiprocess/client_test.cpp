@@ -6,6 +6,9 @@
 
 #include "persons_game.hpp"
 #include "program_test.hpp"
+#include "runtime/bus.hpp"
+#include "runtime/run_folder.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre {
 namespace {
@@ -105,6 +108,31 @@ TEST_F(ClientsGame, ALaboratoryThatComesLateMeasuresAllThatIsOrderedAndAPlannerD
 
   planner.listen(0.5, [](const client::Heard&) {});
   EXPECT_FALSE(planner.is_playing());
+}
+
+/// Says once on the bus of a run that a node of it is there.
+void say_hello(const runtime::RunFolder& run) {
+  runtime::BusOptions options;
+  options.url = runtime::bus_url(run.manifest().port, false);
+  options.node = "analyser";
+  options.run_id = run.manifest().run_id;
+  runtime::Bus::open(std::move(options)).value()->publish({"STATUS", wire::write(wire::NodeStatus{})});
+}
+
+TEST(Clients, FollowARunThatGoesOnAtAnotherPort) {
+  const fs::path folder = fresh_folder("moved");
+  game::Scenario scenario;
+  runtime::RunFolder run = runtime::RunFolder::create(folder, "moved", scenario);
+  const runtime::PortReservation first(0), second(0);
+  run.set_port(first.port());
+  Client own(run.path(), "own", {"STATUS"});
+  run.set_port(second.port());
+  int heard = 0;
+  for (int i = 0; i < 60 && heard == 0; ++i) {
+    say_hello(run);
+    own.listen(0.2, [&](const client::Heard& message) { heard += message.node == "analyser"; });
+  }
+  EXPECT_GT(heard, 0);
 }
 
 TEST(Clients, ThatCannotJoinSayWhy) {
