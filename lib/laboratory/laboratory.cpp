@@ -188,27 +188,36 @@ double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
   return drift;
 }
 
+/// The effects on one of two machines, whose own differences are part of compliance and gain there.
+HiddenEffects on_machine(HiddenEffects effects, bool is_second) {
+  const double further = effects.one_machine_compliance_per_pa;
+  if (is_second == (further > 0.0)) effects.machine_compliance_per_pa += std::abs(further);
+  if (is_second) effects.load_cell_gain = (1.0 + effects.load_cell_gain) * (1.0 + effects.one_machine_gain) - 1.0;
+  return effects;
+}
+
 /// The curve of replicate `number` among those that were pulled.
 const tester::Curve& curve_of(const TrueResponse& response, int number) {
   const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
   return which == 0 ? response.curve : response.other_curves[which - 1];
 }
 
-void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, int number) {
+void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, const Replicate& replicate) {
   Scatter scatter = scatter_of(truth, record.specimen);
-  const double drift = drift_of(truth.effects, record);
+  const HiddenEffects effects = on_machine(truth.effects, replicate.on_second_machine);
+  const double drift = drift_of(effects, record);
   scatter.modulus *= drift;
   scatter.stress *= drift;
-  const double gain = stress_gain(truth.effects, record.conditions.thickness_mm);
+  const double gain = stress_gain(effects, record.conditions.thickness_mm);
   if (record.test == TestKind::modulus) {
-    record.modulus_pa = recorded_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
+    record.modulus_pa = recorded_modulus(effects, gain, scatter.modulus * response.modulus_pa);
     return;
   }
   const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
-  tester::Curve curve = curve_of(response, number);
+  tester::Curve curve = curve_of(response, replicate.number);
   for (double& value : curve.strain) value *= scatter.strain;
   for (double& value : curve.stress_pa) value *= stress;
-  record.curve = recorded_curve(truth.effects, gain, curve);
+  record.curve = recorded_curve(effects, gain, curve);
   if (record.test == TestKind::toughness) record.toughness_pa = tester::area_under(record.curve);
 }
 
@@ -246,10 +255,11 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   record.batch = replicate.batch;
   record.print_order = replicate.print_order;
   if (experiment.temperature_c) record.other_columns["temperature_c"] = fmt::format("{:g}", *experiment.temperature_c);
+  if (!replicate.machine.empty()) record.other_columns["machine"] = replicate.machine;
   record.valid = response.has_value();
   record.note = response ? response->remark : response.error().message;
   if (!response) return record;
-  fill_in(record, truth, *response, replicate.number);
+  fill_in(record, truth, *response, replicate);
   // A laboratory reports no value that no game can use: the specimen failed.
   if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;

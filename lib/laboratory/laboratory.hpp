@@ -45,6 +45,8 @@ struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
   std::string batch = {};
   int print_order = 0;
+  std::string machine = {};        ///< on which it is tested; empty: the laboratory's only one, not noted
+  bool on_second_machine = false;  ///< of two
   int number = 1;  ///< among those of its order, from 1: which specimen of a TrueResponse with several it is
 };
 

@@ -46,6 +46,7 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
       for (const double orientation_deg : campaign.orientations_deg) {
         Experiment experiment{.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
         if (design.layout() != nullptr) experiment.conditions.orientation_deg = orientation_deg;
+        if (test == tester::TestKind::tensile) experiment.loading = campaign.loading;
         for (const Experiment& each : at_all_conditions(experiment, campaign))
           if (std::ranges::find(experiments, each) == experiments.end()) experiments.push_back(each);
       }
@@ -54,12 +55,13 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
   return experiments;
 }
 
-/// Name of a specimen but for its number; rate and temperature only where there are several.
-std::string name_of(const Experiment& experiment, const Campaign& campaign) {
+/// Name of a specimen but for its number; rate, temperature and machine only where there are several.
+std::string name_of(const Experiment& experiment, const Campaign& campaign, const std::string& machine) {
   std::string name = fmt::format("{}-{}-{}", experiment.design.name(), tester::to_string(experiment.test),
                                  experiment.conditions.orientation_deg == kTurnedDeg ? "turned-" : "");
   if (campaign.rates_per_s.size() > 1) name += fmt::format("{:g}-", experiment.conditions.strain_rate_per_s);
   if (experiment.temperature_c) name += fmt::format("{:g}C-", *experiment.temperature_c);
+  if (campaign.machines.size() > 1) name += machine + "-";
   return name;
 }
 
@@ -133,8 +135,13 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign
   std::vector<Planned> plan;
   for (std::size_t q = 0; q < experiments.size(); ++q) {
     for (int k = 1; k <= truth.replicates; ++k) {
-      const std::string name = name_of(experiments[q], campaign) + std::to_string(k);
-      plan.push_back({q, {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0, .number = k}});
+      Replicate replicate{.specimen = {}, .batch = fmt::format("batch-{}", k), .number = k};
+      for (std::size_t m = 0; m < std::max<std::size_t>(1, campaign.machines.size()); ++m) {
+        if (!campaign.machines.empty()) replicate.machine = campaign.machines[m];
+        replicate.on_second_machine = m == 1;
+        replicate.specimen = name_of(experiments[q], campaign, replicate.machine) + std::to_string(k);
+        plan.push_back({q, replicate});
+      }
     }
   }
   shuffle_print_order(plan, truth.seed);

@@ -18,14 +18,17 @@ struct Campaign {
   std::vector<double> orientations_deg = {0.0};
   std::vector<double> rates_per_s = {tester::TestConditions{}.strain_rate_per_s};
   std::vector<double> temperatures_c = {};  ///< of moduli and coupons; fracture tests are done at kReferenceC
+  tester::Loading loading = {};             ///< of coupons
+  /// At most two; specimens of each batch are tested on each of them. Empty: the only one, which is not noted.
+  std::vector<std::string> machines = {};
 };
 
 /// Told while a campaign is simulated, from any thread: share 0..1 of the expected time, simulations done, of how many.
 using CampaignProgress = std::function<void(double share, int done, int all)>;
 
 /// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), coupons of homogeneous
-/// designs alone, at every rate and temperature, all replicates, replicate k of everything in batch k, in an order of
-/// printing drawn from the seed. Simulations run on all allowed cores.
+/// designs alone, at every rate and temperature on every machine, all replicates, replicate k of everything in batch k,
+/// in an order of printing drawn from the seed. Simulations run on all allowed cores.
 std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const Campaign& campaign,
                                                  const CampaignProgress& progress = {});
 

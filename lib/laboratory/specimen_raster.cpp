@@ -321,7 +321,11 @@ Constants tested_constants(const Truth& truth, const Making& making) {
   const HiddenEffects& effects = truth.effects;
   Constants constants = as_laid(constants_of(truth.modulus), effects, making);
   const double rate_per_s = making.strain_rate_per_s;
-  const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s);
+  constexpr double kLonger = 1000.0;
+  const double all =
+      branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s) *
+      (branch_stiffness(effects.two_overstresses, effects.shorter_relaxation_s, rate_per_s) +
+       branch_stiffness(effects.two_overstresses, kLonger * effects.shorter_relaxation_s, rate_per_s) - 1.0);
   for (double& young_pa : constants.young_pa) young_pa *= all;
   constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, rate_per_s);
   if (effects.rate_exponent > 0.0) {

@@ -31,6 +31,21 @@ constexpr std::array kExponents = {
                   [](std::span<const double> p) { return p[0] * p[2]; }}};
 constexpr std::array kBlendLaw = {EffectParameter{
     "log of E of a blend halfway between two of the three materials over what the mixture law says", "1", -1.5, 1.5}};
+constexpr std::array kRateProny = {
+    EffectParameter{"overstress of an instantaneous stretch by the first branch over the relaxed stress", "1", 0.0,
+                    4.0},
+    EffectParameter{"relaxation time of the first branch", "s", 0.0, 1e4, Strength::scale, 1e-3},
+    EffectParameter{"overstress by the second branch", "1", 0.0, 4.0},
+    EffectParameter{"relaxation time of the second branch over that of the first", "1", 0.0, 1e5, Strength::scale,
+                    3.0}};
+constexpr std::array kTemperatureShift = {
+    EffectParameter{"decades of the strain rate that one degree at 23 C is worth", "1/K", 0.0, 0.5},
+    EffectParameter{"degrees below 23 C at which the shift has its pole (Williams, Landel, Ferry)", "K", 0.0, 1e4,
+                    Strength::scale, 20.0}};
+constexpr std::array kOneMachineCompliance = {EffectParameter{
+    "strain per nominal stress of the second machine's load train, less that of the first", "1/Pa", -2e-9, 2e-9}};
+constexpr std::array kOneMachineGain = {
+    EffectParameter{"force that the second machine records over that of the first, less one", "relative", -0.5, 0.5}};
 constexpr std::array kProgressiveDamage = {
     EffectParameter{"energy spent in softening over the threshold energy", "1", 0.0, 4.0}};
 constexpr std::array kTensionOnlyFailure = {
@@ -75,6 +90,11 @@ constexpr Effect form(Effect one, std::string_view form_of, std::string_view for
   one.form_of = form_of;
   one.form = form;
   one.derived = derived;
+  return one;
+}
+
+constexpr Effect law_of(std::string_view condition, Effect one) {
+  one.law_of = condition;
   return one;
 }
 
@@ -125,8 +145,29 @@ constexpr std::array kLibrary = {
            "The load cell reads too high or too low; collinear with other constants of the materials."),
 };
 
+constexpr std::array kConditionLaws = {
+    law_of("strain rate", form(effect("rate_prony", "rate", EffectSide::material, kRateProny, kElastic,
+                                      "All materials are stiffer the faster they are pulled, by two relaxation times "
+                                      "(a Prony series)."),
+                               "rate_dependence", "prony")),
+    law_of("machine", form(effect("one_machine_compliance", "measurement", EffectSide::measurement,
+                                  kOneMachineCompliance, kElastic,
+                                  "One of two machines has a spring in series that the other has not: the difference "
+                                  "between them grows with stiffness."),
+                           "machine_compliance", "one_machine")),
+    law_of("machine", form(effect("one_machine_gain", "measurement", EffectSide::measurement, kOneMachineGain, kElastic,
+                                  "One of two machines reads higher than the other by one factor, whatever the "
+                                  "material: load cell, cross-section or gauge length."),
+                           "load_cell_gain", "one_machine")),
+    law_of("temperature", effect("temperature_shift", "temperature", EffectSide::material, kTemperatureShift, kElastic,
+                                 "A warm specimen responds as a cold one that is pulled more slowly (time-temperature "
+                                 "superposition).")),
+};
+
 }  // namespace
 
 std::span<const Effect> effect_library() { return kLibrary; }
+
+std::span<const Effect> condition_laws() { return kConditionLaws; }
 
 }  // namespace nacre::material

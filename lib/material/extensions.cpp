@@ -49,8 +49,10 @@ double strength_of(const EffectParameter& parameter, double value) {
 }
 
 const Effect* find_effect(std::string_view name) {
-  for (const Effect& effect : effect_library())
-    if (effect.name == name) return &effect;
+  for (const std::span<const Effect> table : {effect_library(), condition_laws()}) {
+    const auto found = std::ranges::find(table, name, &Effect::name);
+    if (found != table.end()) return &*found;
+  }
   return nullptr;
 }
 

@@ -61,6 +61,7 @@ struct Effect {
   std::string_view form_of = {};  ///< the effect of which this is another form; empty: of none
   std::string_view form = {};     ///< of effects with several forms: which
   std::span<const DerivedNumber> derived = {};
+  std::string_view law_of = {};  ///< the condition of which it is a law (condition_laws()); empty: of none
   /// What people call the cause: all forms of one effect alike.
   std::string_view cause() const { return form_of.empty() ? name : form_of; }
 };

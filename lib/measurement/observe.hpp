@@ -6,6 +6,8 @@
 //   drift       E (1 + d)^batch_step, stresses alike
 //   compliance  1/E_recorded = 1/E + c: a spring in series
 //   load cell   recorded force = (1 + g) force
+//   of two machines one may have a further c, the second where it is above 0 and the first where it is below, and the
+//   second a further g
 //   curve       strain_recorded = s + strain + c sigma
 
 #include <functional>
@@ -18,7 +20,8 @@ namespace nacre::measurement {
 
 /// The position of a specimen among the others of its set, for the effects that depend on it.
 struct PrintContext {
-  double batch_step = 0.0;  ///< batches after the first one, in the order of printing
+  double batch_step = 0.0;         ///< batches after the first one, in the order of printing
+  bool on_second_machine = false;  ///< of two
 };
 
 /// The contexts of a set's specimens, in their order. Batches follow each other by name, numbers in their natural order

@@ -11,7 +11,7 @@
 #include "material/confinement.hpp"
 #include "material/extended_law.hpp"
 #include "material/extensions.hpp"
-#include "material/rate_power_law.hpp"
+#include "material/rate_laws.hpp"
 #include "tester/printed_unit.hpp"
 #include "thesis/constants.hpp"
 

@@ -44,8 +44,8 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
   for (const auto& [name, values] : simulation.parameters.extensions) {
     if (!acts(name, values, kind)) continue;
     text += fmt::format("extension {}{}\n", name, exact_values(values));
-    // The base model depends on neither rate nor thickness; of the extensions these three do.
-    if (name == "rate_dependence" || name == "rate_power_law")
+    // The base model depends on neither rate nor thickness; of the extensions these do.
+    if (name == "rate_dependence" || name == "rate_power_law" || name == "rate_prony")
       text += fmt::format("strain_rate_per_s {}\n", exact(simulation.conditions.strain_rate_per_s));
     if (name == "plane_strain") text += fmt::format("thickness_mm {}\n", exact(simulation.conditions.thickness_mm));
   }

@@ -6,6 +6,7 @@
 
 #include "base/counted.hpp"
 #include "base/output_path.hpp"
+#include "base/result.hpp"
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/measure_set.hpp"
@@ -13,6 +14,7 @@
 #include "output.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
+#include "tester/loading.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -25,6 +27,8 @@ struct MeasureOptions {
   std::string orientation = "0";
   std::vector<double> rates_per_s = laboratory::Campaign{}.rates_per_s;
   std::vector<double> temperatures_c;
+  std::vector<std::string> machines;
+  std::string loading;
   bool json = false;
 };
 
@@ -38,6 +42,12 @@ int measure(const MeasureOptions& options) {
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
   campaign.rates_per_s = options.rates_per_s;
   campaign.temperatures_c = options.temperatures_c;
+  campaign.machines = options.machines;
+  if (!options.loading.empty()) {
+    const Result<tester::Loading> loading = tester::loading_from_string(options.loading);
+    if (!loading) throw InputError::format("--loading: {}", loading.error().message);
+    campaign.loading = *loading;
+  }
   prepare_output_folder(options.out);
   remark(fmt::format("measuring {}", counted(campaign.designs.size(), "design")));
   Progress progress("measure:");
@@ -81,6 +91,11 @@ void add_measure(CLI::App& app, Action& action) {
       .add_option("--temperature", options->temperatures_c,
                   "Temperatures, degrees C, at each of which moduli and coupons are tested")
       ->check(CLI::Range(laboratory::kColdestC, laboratory::kHottestC));
+  command
+      .add_option("--machine", options->machines, "Names of one or two machines, on each of which every test is done")
+      ->expected(1, 2);
+  command.add_option("--loading", options->loading,
+                     "How coupons are pulled: monotonic, or to one strain after another (strain 0.02 0.005 0.022)");
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -340,6 +340,45 @@ TEST(Temperature, IsRefusedWhereItIsNotModelled) {
   EXPECT_THAT(respond(truth, experiment).error().message, testing::HasSubstr("expected -20 to 150"));
 }
 
+// One piece as two machines record it.
+TEST(Machines, OneOfTwoReadsOtherwise) {
+  Truth truth = plain_truth();
+  truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
+  const Experiment rigid{.design = pattern::Mixture{1.0}, .fidelity = truth.fidelity};
+  const auto recorded_pa = [&](bool on_second) {
+    Replicate replicate{.specimen = "a"};
+    replicate.on_second_machine = on_second;
+    return record_specimen(truth, rigid, respond(truth, rigid), replicate).modulus_pa.value();
+  };
+  const double plain_pa = recorded_pa(false);
+  EXPECT_EQ(recorded_pa(true), plain_pa);
+  truth.effects.one_machine_gain = 0.2;
+  EXPECT_EQ(recorded_pa(false), plain_pa);
+  EXPECT_NEAR(recorded_pa(true) / plain_pa, 1.2, 1e-12);
+  truth.effects.one_machine_gain = 0.0;
+  for (const double compliance_per_pa : {1e-10, -1e-10}) {
+    truth.effects.one_machine_compliance_per_pa = compliance_per_pa;
+    const bool on_second = compliance_per_pa > 0.0;
+    EXPECT_EQ(recorded_pa(!on_second), plain_pa);
+    EXPECT_NEAR(1.0 / recorded_pa(on_second) - 1.0 / plain_pa, 1e-10, 1e-15);
+  }
+}
+
+TEST(Campaign, EveryMachineTestsSpecimensOfEveryBatch) {
+  const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
+  Campaign campaign{{pattern::Mixture{1.0}}, {TestKind::modulus}};
+  campaign.machines = {"old", "new"};
+  std::map<std::string, std::set<std::string>> batches;
+  std::set<std::string> names;
+  for (const measurement::SpecimenRecord& record : measure(truth, campaign)) {
+    batches[record.other_columns.at("machine")].insert(record.batch);
+    names.insert(record.specimen);
+  }
+  EXPECT_EQ(names.size(), 4u);
+  EXPECT_EQ(batches["old"], (std::set<std::string>{"batch-1", "batch-2"}));
+  EXPECT_EQ(batches["new"], batches["old"]);
+}
+
 TEST(Campaign, EveryRateAndTemperatureIsNotedAndHasSpecimensOfItsOwn) {
   const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
   Campaign campaign{{pattern::Mixture{1.0}}, {TestKind::modulus, TestKind::tensile}};

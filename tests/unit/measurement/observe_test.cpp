@@ -34,6 +34,18 @@ TEST(ObserveAlong, FindsTheStressesBehindWhatTheMachineRecorded) {
   }
 }
 
+TEST(Observe, OneOfTwoMachinesReadsOtherwise) {
+  const PrintContext second{.on_second_machine = true};
+  const material::Extensions gain = {{"one_machine_gain", {0.2}}}, spring = {{"one_machine_compliance", {1e-10}}},
+                             other_spring = {{"one_machine_compliance", {-1e-10}}};
+  EXPECT_EQ(observe_modulus(1e9, gain), 1e9);
+  EXPECT_NEAR(observe_modulus(1e9, gain, second), 1.2e9, 1.0);
+  EXPECT_EQ(observe_modulus(1e9, spring), 1e9);
+  EXPECT_NEAR(observe_modulus(1e9, spring, second), 1e9 / 1.1, 1.0);
+  EXPECT_NEAR(observe_modulus(1e9, other_spring), 1e9 / 1.1, 1.0);
+  EXPECT_EQ(observe_modulus(1e9, other_spring, second), 1e9);
+}
+
 TEST(ObserveAlong, IsTheSpecimenItselfWithoutAMachine) {
   EXPECT_EQ(observe_along(history(), stretched, {}), stretched(history()));
 }

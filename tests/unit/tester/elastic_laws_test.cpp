@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "material/blend_law.hpp"
-#include "material/rate_power_law.hpp"
+#include "material/rate_laws.hpp"
 #include "tester/modulus.hpp"
 
 namespace nacre::material {
@@ -26,6 +26,20 @@ TEST(RatePowerLaw, EveryPhaseHasItsExponent) {
                 exponent, 1e-9);
     EXPECT_DOUBLE_EQ(modulus_at(design, law, kReferenceRatePerS), modulus_at(design, {}, 1.0)) << "the constants' rate";
   }
+}
+
+// ISO 527 chords of two Maxwell branches: the relaxed E when slow, both overstresses when fast.
+TEST(RateProny, AddsTwoRelaxationTimes) {
+  const Extensions law = {{"rate_prony", {0.5, 0.1, 0.3, 100.0}}};
+  const pattern::Design rigid = pattern::Mixture{1.0};
+  const double relaxed = modulus_at(rigid, {}, 1.0);
+  EXPECT_NEAR(modulus_at(rigid, law, 1e-7) / relaxed, 1.0, 0.02);
+  EXPECT_NEAR(modulus_at(rigid, law, 1e3) / relaxed, 1.8, 1e-4);
+  // At 1e-2 /s the chord lies between 0.05 and 0.25 s: the short branch has half relaxed, the long one has not.
+  const auto branch = [](double r, double tau) {
+    return r * tau * (std::exp(-0.05 / tau) - std::exp(-0.25 / tau)) / 0.2;
+  };
+  EXPECT_NEAR(modulus_at(rigid, law, 1e-2) / relaxed, 1.0 + branch(0.5, 0.1) + branch(0.3, 10.0), 1e-9);
 }
 
 // Between the exponents of its phases lies that of a layout; equal exponents are one factor.
