@@ -100,6 +100,13 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
                                                                            : CandidateStatus::invisible;
     candidates.push_back(candidate);
   }
+  for (const material::Effect& law : material::condition_laws()) {
+    if (!holds(decision.possible, std::string(law.name))) continue;
+    CandidateEffect& named = candidates.emplace_back();
+    named.name = law.name;
+    named.status = CandidateStatus::in_set;
+    named.parameter = decision.possible.front().parameters.extensions.at(named.name).front();
+  }
   return candidates;
 }
 

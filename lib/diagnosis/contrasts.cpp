@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/result.hpp"
+#include "material/temperature_shift.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -166,7 +167,7 @@ std::vector<Descriptor> descriptors() {
       {"batch", condition_with_law, [](const Observation& g) { return g.batch_step; }},
       // Where it is not noted: the standard atmosphere of ISO 291, and new.
       {"temperature", condition_without_law,
-       [](const Observation& g) { return g.surroundings.temperature_c.value_or(23.0); }},
+       [](const Observation& g) { return g.surroundings.temperature_c.value_or(material::kReferenceTemperatureC); }},
       {"humidity", condition_without_law,
        [](const Observation& g) { return g.surroundings.humidity_pct.value_or(50.0); }},
       {"age", condition_without_law,

@@ -7,9 +7,11 @@
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/condition_laws.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
+#include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/other_materials.hpp"
@@ -224,6 +226,11 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.cautions = cautions_of(observations, diagnosis, settings);
   diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
+  diagnosis.cautions.rival_laws = decision.rival_laws;
+  const std::vector<std::string> told = told_factors(evidence.factors);
+  diagnosis.cautions.machines_not_compared = observations.machines.size() == 2 &&
+                                             std::ranges::count(told, "machine") > 0 &&
+                                             !machines_are_compared(observations);
   if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(plain(evidence), diagnosis.contrasts.front());
   diagnosis.summary = summary_of(diagnosis);
   report(1.0, "done");

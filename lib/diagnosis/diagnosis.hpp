@@ -224,6 +224,8 @@ struct Cautions {
   bool nothing_replicated = false;             ///< no test has any
   bool replicates_are_equal = false;           ///< as no printed specimens are
   std::vector<std::string> alike;              ///< conditions that go with that of the strongest contrast
+  std::vector<std::string> rival_laws;         ///< of a condition: these data cannot part them
+  bool machines_not_compared = false;          ///< they matter, and no piece and no batch was tested on both of two
   int disconnected_batches = 0;                ///< sets of batches without a common design; 0: no batches
 };
 
@@ -237,7 +239,8 @@ struct Diagnosis {
   CommonGround common_ground;                     ///< of all possible models
   std::vector<ModulusAtBound> untold;             ///< with Reason::other_material: where specimens of these would tell
   std::vector<std::vector<std::string>> factors;  ///< least sets of conditions whose free levels make the base fit
-  std::vector<CandidateEffect> candidates;        ///< of all known effects, in the order of material::effect_library()
+  std::vector<CandidateEffect> candidates;        ///< of all known effects, in the order of material::effect_library();
+                                                  ///< behind them named laws of conditions
   std::vector<Contrast> contrasts;                ///< strongest first
   RowsOf loudest;                                 ///< whose residuals are largest against their noise
   std::optional<Gain> gain;                       ///< of the named model

@@ -25,7 +25,8 @@ std::vector<std::vector<std::string>> factors_at_work(const Observations& observ
 std::vector<std::string> told_factors(const std::vector<std::vector<std::string>>& sets);
 
 /// Those that no effect of the library describes (contrasts.hpp). Their levels change nothing but what specimens are
-/// compared at. Those of a material would hide every effect.
+/// compared at; a law of theirs may stand in afterwards (condition_laws.hpp). Those of a material would hide every
+/// effect.
 std::vector<std::string> without_law(std::vector<std::string> factors);
 
 /// With free levels of these factors but for the strain rate, and of materials where they vary, in place of others.

@@ -76,10 +76,10 @@ struct HeldOut {
   Eigen::VectorXd before, after;
 };
 
-HeldOut hold_out(const Observations& observations, const Observations& extended, const FittedModel& base,
-                 const std::vector<FittedModel>& models, double least_drop, int folds,
+HeldOut hold_out(const Observations& observations, const FittedModel& base, const ExtendedModels& extending, int folds,
                  const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
+  const Observations& extended = extending.observations != nullptr ? *extending.observations : observations;
   const Eigen::MatrixXd covariance = observations.covariance(), of_extended = extended.covariance();
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
   for (int fold = 0; fold < folds; ++fold) {
@@ -93,9 +93,17 @@ HeldOut hold_out(const Observations& observations, const Observations& extended,
     const Whitener whitener(of_extended(train, train));
     const FittedModel* chosen = &base;
     LinearRefit chosen_refit = plain;
-    for (const FittedModel& model : models) {
-      const LinearRefit own = refit(model, train, y, whitener);
-      if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - least_drop) chosen = &model, chosen_refit = own;
+    std::vector<FittedModel> fitted = extending.models;
+    for (FittedModel& model : fitted) {
+      LinearRefit own;
+      if (extending.refits != nullptr) {
+        model = extending.refits->without(held, extended, model);
+        own = {whitener.chi2(y(train) - model.predicted(train)), Eigen::VectorXd::Zero(model.u.size())};
+      } else {
+        own = refit(model, train, y, whitener);
+      }
+      if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - extending.least_drop)
+        chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
                           after = y - predicted_from(extended, *chosen, chosen_refit, train);
@@ -207,19 +215,28 @@ double drop_needed(const Evidence& evidence) {
   return threshold(std::move(drops), evidence.settings.procedure.levels.name);
 }
 
+FittedModel ExactRefits::without(const std::vector<bool>& held, Observations observations,
+                                 const FittedModel& fit) const {
+  constexpr double kTellsNothing = 1e6;  // log units, squared
+  if (observations.emulator_variance.size() != observations.size())
+    observations.emulator_variance = Eigen::VectorXd::Zero(observations.size());
+  for (std::size_t row = 0; row < held.size(); ++row)
+    if (held[row]) observations.emulator_variance[static_cast<Eigen::Index>(row)] = kTellsNothing;
+  return fit_model(model, observations, rules, fit.effects, fit.u);
+}
+
 Gain gain_of(const Evidence& evidence, const FittedModel& decided) {
   std::vector<FittedModel> models = evidence.singles;
   if (decided.effects.size() > 1) models.push_back(decided);
-  return held_out_gain(evidence.observations, evidence.base.fit, models, decided.effects, drop_needed(evidence),
+  return held_out_gain(evidence.observations, evidence.base.fit,
+                       {.models = std::move(models), .least_drop = drop_needed(evidence)}, decided.effects,
                        evidence.settings.procedure.gain, evidence.settings.seed);
 }
 
-Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                   const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
-                   std::uint64_t seed, const Observations* extended) {
+Gain held_out_gain(const Observations& observations, const FittedModel& base, const ExtendedModels& extending,
+                   const std::vector<std::string>& effects, const GainRules& rules, std::uint64_t seed) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
-  const HeldOut held = hold_out(observations, extended != nullptr ? *extended : observations, base, models, least_drop,
-                                rules.folds, designs);
+  const HeldOut held = hold_out(observations, base, extending, rules.folds, designs);
   Gain gain;
   gain.of_coupons = coupons_count(observations, effects);
   int rows = 0;

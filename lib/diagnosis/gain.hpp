@@ -14,14 +14,27 @@ double drop_needed(const Evidence& evidence);
 /// the data.
 Gain gain_of(const Evidence& evidence, const FittedModel& decided);
 
+/// Refits of models that are far from linear in their parameters.
+struct ExactRefits {
+  const FeatureModel& model;
+  const FitRules& rules;
+  /// A fit again, from where it is, as if the rows `held` had not been measured.
+  FittedModel without(const std::vector<bool>& held, Observations observations, const FittedModel& fit) const;
+};
+
+/// Extended models among which each fold selects.
+struct ExtendedModels {
+  std::vector<FittedModel> models;
+  double least_drop = 0.0;                     ///< of chi2, for one to be preferred to the base
+  const Observations* observations = nullptr;  ///< with what the models leave free; nothing: those of the base
+  const ExactRefits* refits = nullptr;         ///< nothing: linear ones around the full fits
+};
+
 /// Mean absolute errors on held-out patterns, base against the model that would have been selected without them: some
 /// folds of whole layouts (twins stay together) and of coupons of one material at one rate, selection repeated in each
-/// fold among `models`, linear refits around the full fits. The overall figure is that of moduli and toughness of
-/// layouts, or of slopes and stresses of coupons where none of `effects` acts on layouts. A model that lowers chi2 by
-/// less than `least_drop` is not preferred to the base. 90 % interval by bootstrap over designs. `extended`: the
-/// observations with what the models leave free; nothing: the same ones.
-Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
-                   const std::vector<std::string>& effects, double least_drop, const GainRules& rules,
-                   std::uint64_t seed, const Observations* extended = nullptr);
+/// fold. The overall figure is that of moduli and toughness of layouts, or of slopes and stresses of coupons where none
+/// of `effects` acts on layouts. 90 % interval by bootstrap over designs.
+Gain held_out_gain(const Observations& observations, const FittedModel& base, const ExtendedModels& extending,
+                   const std::vector<std::string>& effects, const GainRules& rules, std::uint64_t seed);
 
 }  // namespace nacre::diagnosis

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "diagnosis/other_materials.hpp"
+#include "material/temperature_shift.hpp"
 #include "tester/modulus.hpp"
 #include "tester/simulation_key.hpp"
 #include "tester/tensile.hpp"
@@ -18,6 +19,15 @@ using tester::TestKind;
 /// Value of a feature that the model does not show: no toe, no set, and the way back as steep as the way up.
 double unshown(const FeatureValues& values, Feature feature) {
   return feature == Feature::log_unloading ? value_of(values, Feature::log_tangent_30).value_or(0.0) : 0.0;
+}
+
+/// The conditions that the testers simulate: the rate to which the specimen responds at its temperature.
+tester::TestConditions simulated_conditions(const Observation& group, const material::ParameterSet& set) {
+  tester::TestConditions conditions = group.conditions;
+  conditions.strain_rate_per_s =
+      material::equivalent_rate(conditions.strain_rate_per_s, set.extensions,
+                                group.surroundings.temperature_c.value_or(material::kReferenceTemperatureC));
+  return conditions;
 }
 
 }  // namespace
@@ -37,8 +47,8 @@ Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, c
 }
 
 tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
-  const auto shown = coupon_through_machine({group.design, set, group.conditions, fidelity_}, group.curve.strain,
-                                            {.batch_step = group.batch_step});
+  const auto shown = coupon_through_machine({group.design, set, simulated_conditions(group, set), fidelity_},
+                                            group.curve.strain, print_context(group));
   if (!shown) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), shown.error().message));
   const auto end = carried_strain(group.curve, observations_.reading);
   return end ? tester::cut_at(*shown, *end) : *shown;
@@ -94,9 +104,14 @@ FeatureModel FeatureModel::with_basis(Basis basis) const {
   return model;
 }
 
+measurement::PrintContext FeatureModel::print_context(const Observation& group) const {
+  return {.batch_step = group.batch_step,
+          .on_second_machine = observations_.machines.size() == 2 && group.machine == 1};
+}
+
 double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
   const Observation& g = observations_.groups[group];
-  const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
+  const tester::Simulation simulation{g.design, simulated_side(set), simulated_conditions(g, set), fidelity_};
   const std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
     const std::lock_guard lock(memory_->mutex);
@@ -117,7 +132,7 @@ double FeatureModel::modulus(std::size_t group, const material::ParameterSet& se
 std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group,
                                                                 const material::ParameterSet& set) const {
   const Observation& g = observations_.groups[group];
-  const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
+  const tester::Simulation simulation{g.design, simulated_side(set), simulated_conditions(g, set), fidelity_};
   std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
     const std::lock_guard lock(memory_->mutex);
@@ -133,8 +148,8 @@ std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t grou
 
 void FeatureModel::put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
                                Eigen::Ref<Eigen::VectorXd> rows) const {
-  const double shown = std::log(
-      measurement::observe_modulus(modulus_pa, set.extensions, {.batch_step = observations_.groups[group].batch_step}));
+  const double shown =
+      std::log(measurement::observe_modulus(modulus_pa, set.extensions, print_context(observations_.groups[group])));
   for (const int row : rows_of_group_[group]) rows[row] = shown;
 }
 

@@ -12,6 +12,7 @@
 #include "diagnosis/coordinates.hpp"
 #include "diagnosis/fracture_surface.hpp"
 #include "diagnosis/observations.hpp"
+#include "measurement/observe.hpp"
 #include "tester/modulus_probe.hpp"
 
 namespace nacre::diagnosis {
@@ -49,6 +50,7 @@ class FeatureModel {
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
 
  private:
+  measurement::PrintContext print_context(const Observation& group) const;
   /// E of a layout before the testing machine, remembered.
   double modulus(std::size_t group, const material::ParameterSet& set) const;
   /// The probe of a layout there: that of the last solution where it is the same.

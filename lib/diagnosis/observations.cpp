@@ -124,6 +124,7 @@ Observation mean_of(const std::vector<Measured>& replicates, const CurveReading&
       ++with_order;
     }
     group.batch_step += each.batch_step / group.replicates;
+    if (!each.specimen->batch.empty()) group.batches.insert(each.specimen->batch);
   }
   std::ranges::sort(group.pieces);
   if (with_order > 0) group.print_order /= with_order;

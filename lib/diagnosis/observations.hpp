@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ struct Observation {
   FeatureValues features;                       ///< means over the valid replicates
   int replicates = 0;                           ///< pieces: tests of one piece count once
   std::vector<std::string> pieces;              ///< sorted
+  std::set<std::string> batches;                ///< of its pieces, where noted
   double print_order = 0.0;                     ///< mean, 0 when unknown
   double batch_step = 0.0;                      ///< mean number of the batch, the first is 0
   tester::Curve curve;           ///< of the replicate whose peak is the middle one; empty when none was recorded

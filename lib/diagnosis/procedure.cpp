@@ -52,11 +52,13 @@ std::string floors_of(const ModulusFloor& modulus, const FractureDiscretisation&
 /// Effects, features, descriptors and the coupons that are ordered.
 std::string definitions() {
   std::string text;
-  for (const material::Effect& effect : material::effect_library()) {
-    text += fmt::format("effect {} {}", effect.name, effect.family);
-    for (const material::EffectParameter& p : effect.parameters)
-      text += fmt::format(" [{} {} {}]", p.unit, p.minimum, p.maximum);
-    text += "\n";
+  for (const auto table : {material::effect_library(), material::condition_laws()}) {
+    for (const material::Effect& effect : table) {
+      text += fmt::format("effect {} {}", effect.name, effect.family);
+      for (const material::EffectParameter& p : effect.parameters)
+        text += fmt::format(" [{} {} {}]", p.unit, p.minimum, p.maximum);
+      text += "\n";
+    }
   }
   for (int i = 0; i < kFeatureCount; ++i) text += fmt::format("feature {}\n", to_string(static_cast<Feature>(i)));
   for (const Descriptor& descriptor : descriptors()) text += fmt::format("contrast {}\n", descriptor.name);

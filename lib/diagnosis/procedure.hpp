@@ -149,6 +149,7 @@ struct GainRules {
   int folds = 5;
   int interval_draws = 2000;  ///< bootstraps over designs
   double set_apart = 3.0;     ///< standard errors by which two designs differ measurably
+  double law_share = 0.8;     ///< of the held-out error that free levels of a condition take away, for a law of it
   static constexpr void fields(auto& field, auto& m);
 };
 

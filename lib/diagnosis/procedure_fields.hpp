@@ -122,6 +122,7 @@ constexpr void GainRules::fields(auto& field, auto& m) {
   field("folds", m.folds);
   field("interval_draws", m.interval_draws);
   field("set_apart", m.set_apart);
+  field("law_share", m.law_share);
 }
 
 constexpr void TestRules::fields(auto& field, auto& m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/condition_laws.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
@@ -143,8 +144,10 @@ Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest
   decision.verdict = Verdict::named;
   decision.partial.reset();
   decision.possible = {law};
-  decision.gain = held_out_gain(levelled, evidence.base.fit, {law}, law.effects, 0.0, rules.gain,
-                                evidence.settings.seed, &freed.observations);
+  const ExactRefits refits{evidence.model, rules.fit};
+  decision.gain = held_out_gain(levelled, evidence.base.fit,
+                                {.models = {law}, .observations = &freed.observations, .refits = &refits}, law.effects,
+                                rules.gain, evidence.settings.seed);
   decision.freed = std::make_shared<const Evidence>(std::move(freed));
   decision.finding = {
       .reason = Reason::free_form, .nearest = law.effects, .value = chance_of_misfit(evidence, nearest)};
@@ -182,7 +185,8 @@ Decision decide(const Evidence& evidence) {
   decision.contrasts = judged_contrasts(plain(evidence));
   decision.loudest_part = loudest_part(plain(evidence).base_draws, plain(evidence).base_statistics);
   decision = decided_among_effects(evidence, std::move(decision));
-  if (!evidence.factors.empty()) decision = decided_with_factors(evidence, std::move(decision));
+  if (!evidence.factors.empty())
+    decision = with_condition_laws(evidence, decided_with_factors(evidence, std::move(decision)));
   if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;
   decision.untold = untold_materials(evidence);
   if (decision.untold.empty()) return decision;

@@ -23,7 +23,9 @@ struct Decision {
   std::size_t loudest_part = 0;           ///< of the rows, where the base is farthest off (Anchor::parts)
   std::vector<ModulusAtBound> untold;     ///< where specimens of these materials would decide between another material
                                           ///< and a missing effect: `ambiguous`, no model possible
-  std::shared_ptr<const Evidence> freed;  ///< of a law in free form: with free exponents; nothing: there is none
+  std::vector<std::string> rival_laws;    ///< of a condition, each of which explains the data (condition_laws.hpp)
+  std::shared_ptr<const Evidence> freed;  ///< with the free levels and exponents beside which the model explains the
+                                          ///< data, where these are others than those that effects were judged beside
   Finding finding;
 };
 

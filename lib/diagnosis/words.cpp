@@ -107,7 +107,7 @@ std::string reason_in_words(const Diagnosis& d) {
     case Reason::one_effect:
       return "fitted jointly with the base model, it explains the data";
     case Reason::two_effects:
-      return "no single effect explains the data, these two together do";
+      return "no single effect explains the data, these together do";
     case Reason::other_material:
       return fmt::format(
           "the base model fits with {}, beyond three times the range of these inks: it is another material, which "
@@ -115,7 +115,7 @@ std::string reason_in_words(const Diagnosis& d) {
           "ranges of its own, or an effect is missing",
           in_words(d.untold));
     case Reason::factor:
-      return fmt::format("free levels of {} explain these data, and no known effect is a law of that",
+      return fmt::format("free levels of {} explain these data, and no one law of that is told",
                          factors_in_words(d.factors));
     case Reason::free_form:
       return fmt::format(
@@ -140,9 +140,10 @@ std::string models_in_words(const std::vector<std::vector<std::string>>& models)
 /// What else the data depend on: effects were judged where it is equal.
 std::string levels_in_words(const Diagnosis& d) {
   if (d.factors.empty()) return "";
-  const std::vector<std::string> others = without_law(d.factors.front());
+  std::vector<std::string> others = without_law(d.factors.front());
+  for (const NamedEffect& effect : d.effects) std::erase(others, material::find_effect(effect.name)->law_of);
   if (others.empty()) return "";
-  return fmt::format(" The data depend on {} too, of which nacre has no law: everything was judged where it is equal.",
+  return fmt::format(" The data depend on {} too, and no law of that is told: everything was judged where it is equal.",
                      fmt::join(others, " and "));
 }
 
@@ -242,6 +243,17 @@ std::string alike_in_words(const Diagnosis& d) {
   if (d.cautions.alike.empty()) return "";
   return fmt::format(" These data cannot part {} from {}: a specimen under each of both would.",
                      d.contrasts.front().view.against, fmt::join(d.cautions.alike, " and "));
+}
+
+/// Why machines that differ get no law.
+std::string machines_in_words(const Cautions& cautions) {
+  if (cautions.machines_not_compared)
+    return " What differs between the machines may be the specimens: no piece and no batch was tested on both.";
+  if (cautions.rival_laws.empty()) return "";
+  std::vector<std::string> laws;
+  for (const std::string& law : cautions.rival_laws) laws.push_back(material::effect_in_words(law));
+  return fmt::format(" These data cannot part {}: materials of other stiffness under both conditions would.",
+                     fmt::join(laws, " from "));
 }
 
 std::string bounds_in_words(const Diagnosis& d) {
@@ -464,8 +476,8 @@ std::string choice_in_words(const Gain& gain) {
 
 std::string summary_of(const Diagnosis& d) {
   std::string text = verdict_in_words(d) + other_materials_in_words(d.cautions.other_materials) + alike_in_words(d) +
-                     disagreement_in_words(d.cautions.out_of_line, d.verdict) + discretisation_in_words(d.sanity) +
-                     batches_in_words(d);
+                     machines_in_words(d.cautions) + disagreement_in_words(d.cautions.out_of_line, d.verdict) +
+                     discretisation_in_words(d.sanity) + batches_in_words(d);
   if (d.cautions.replicates_are_equal)
     text +=
         " Caution: replicates agree to a twentieth of a per cent, which no printed specimens do: were their means "

@@ -63,8 +63,8 @@ TEST(BlindHomogeneousTrials, BlendsOffTheMixtureLawAreNamed) {
   EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.4, 0.06);
 }
 
-// Rates at three temperatures: these move E by more than the rate does, and have no law.
-TEST(BlindHomogeneousTrials, ThePowerOfTheRateIsNamedAtEqualTemperatures) {
+// Rates at three temperatures: these move E by more than the rate does, and as other rates would.
+TEST(BlindHomogeneousTrials, ThePowerOfTheRateIsNamedWithTheShiftByTemperature) {
   const auto swept = [](std::uint64_t seed) {
     std::vector<laboratory::Experiment> all;
     for (laboratory::Experiment each : blends_at_four_rates(0)) {
@@ -81,6 +81,11 @@ TEST(BlindHomogeneousTrials, ThePowerOfTheRateIsNamedAtEqualTemperatures) {
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "rate_dependence");
   expect_parameter(trial.diagnosis["effects"][0], "soft_exponent", 0.18);
+  ASSERT_EQ(trial.diagnosis["effects"].size(), 2u);
+  const nlohmann::json& shift = trial.diagnosis["effects"][1];
+  EXPECT_EQ(shift["name"], "temperature_shift");
+  EXPECT_LE(shift["interval90"][0].get<double>(), 8.86 / 101.6);
+  EXPECT_GE(shift["interval90"][1].get<double>(), 8.86 / 101.6);
   ASSERT_EQ(trial.diagnosis["factors"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["factors"][0], (std::vector<std::string>{"strain rate", "temperature"}));
 }

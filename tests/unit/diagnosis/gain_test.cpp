@@ -45,7 +45,7 @@ TEST(Gain, RanksDesignsThatTheMeasurementsSetApart) {
   const double mean = observations.values.mean();
   const FittedModel upside_down = predicting((2.0 * mean - observations.values.array()).matrix()),
                     right = predicting(observations.values);
-  const Gain gain = held_out_gain(observations, upside_down, {right}, {}, 1.0, {}, 1);
+  const Gain gain = held_out_gain(observations, upside_down, {.models = {right}, .least_drop = 1.0}, {}, {}, 1);
   ASSERT_EQ(gain.features.size(), 1u);
   const Ranking& ranking = gain.features[0].ranking;
   EXPECT_EQ(ranking.pairs, 9);  // ten of five upright designs, but for the two of equal stiffness

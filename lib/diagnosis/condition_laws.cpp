@@ -1,0 +1,183 @@
+#include "diagnosis/condition_laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+
+#include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/contrasts.hpp"
+#include "diagnosis/factors.hpp"
+#include "diagnosis/gain.hpp"
+#include "diagnosis/misfit.hpp"
+#include "material/effect_library.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Laws of a condition that these data may tell. The one of temperature shifts the rate: there must be a law of that.
+std::vector<std::string> laws_of(std::string_view condition, const Observations& observations,
+                                 const FittedModel& decided) {
+  if (condition == "machine" && !machines_are_compared(observations)) return {};
+  if (condition == "temperature" && !have_rate_law(decided.effects)) return {};
+  std::vector<std::string> laws;
+  for (const material::Effect& law : material::condition_laws())
+    if (law.law_of == condition) laws.emplace_back(law.name);
+  return laws;
+}
+
+/// The model with a law more, fitted from several sizes of it.
+FittedModel fitted_with(const Evidence& evidence, const Observations& observations, const FittedModel& decided,
+                        const std::string& law) {
+  const FitRules& rules = evidence.settings.procedure.fit;
+  std::vector<std::string> effects = decided.effects;
+  effects.push_back(law);
+  const CoordinateMap map = evidence.model.map(effects);
+  const auto own = static_cast<int>(decided.u.size());
+  std::optional<FittedModel> best;
+  for (const double size : rules.sizes) {
+    for (const double signed_size : {size, -size}) {
+      if (signed_size < map.lower(own)) continue;
+      Eigen::VectorXd start = widened_start(decided, map);
+      start[own] = signed_size;
+      FittedModel fit = fit_model(evidence.model, observations, rules, effects, start);
+      if (!best || fit.chi2 < best->chi2) best = std::move(fit);
+    }
+  }
+  return *best;
+}
+
+/// Free levels of the conditions without a law in place of others, and, of a law of the rate in free form, exponents.
+Observations freed(const Observations& observations, const std::vector<std::string>& factors, bool has_free_exponents,
+                   const NoiseRules& rules) {
+  if (has_free_exponents) return with_free_exponents(observations, factors, rules);
+  Observations levelled = observations;
+  levelled.levels = level_directions(observations, without_law(factors), rules.level_sd);
+  return levelled;
+}
+
+/// Chi squared, and what an effect has to be worth for each that the model holds.
+double cost_of(const FittedModel& model, const NameRules& rules) {
+  return model.chi2 + rules.lead * static_cast<double>(model.effects.size());
+}
+
+/// Every one of these models with every law of a condition that explains the data so, the best first; none that costs
+/// more by what a name needs.
+std::vector<FittedModel> laws_that_fit(const Evidence& evidence, const Observations& observations,
+                                       const std::vector<FittedModel>& beside, std::string_view condition) {
+  const Procedure& rules = evidence.settings.procedure;
+  std::vector<FittedModel> fitting;
+  for (const FittedModel& model : beside) {
+    for (const std::string& law : laws_of(condition, observations, model)) {
+      FittedModel fit = fitted_with(evidence, observations, model, law);
+      const double p = chance_of_misfit(observations, fit, evidence.settings);
+      if (is_usable(fit, p, rules.levels.unexplained)) fitting.push_back(std::move(fit));
+    }
+  }
+  const auto cost = [&](const FittedModel& model) { return cost_of(model, rules.names); };
+  std::ranges::stable_sort(fitting, {}, cost);
+  if (fitting.empty()) return fitting;
+  std::erase_if(fitting, [&, least = cost(fitting.front())](const FittedModel& model) {
+    return cost(model) - least >= rules.names.lead;
+  });
+  return fitting;
+}
+
+/// The laws, each once, of these models.
+std::vector<std::string> laws_among(const std::vector<FittedModel>& models) {
+  std::vector<std::string> laws;
+  for (const FittedModel& model : models)
+    if (std::ranges::count(laws, model.effects.back()) == 0) laws.push_back(model.effects.back());
+  return laws;
+}
+
+/// The decision for models with a law (several: forms of another effect), on observations without the levels that it
+/// replaces. Its gain is that over the base without these levels.
+Decision named_with(const Evidence& evidence, Decision decision, std::vector<FittedModel> models,
+                    Observations observations, const std::vector<std::string>& left) {
+  const Procedure& rules = evidence.settings.procedure;
+  const Observations before = freed(evidence.observations, left, false, rules.noise);
+  const ExactRefits refits{evidence.model, rules.fit};
+  decision.gain = held_out_gain(before, evidence.base.fit,
+                                {.models = {models.front()}, .observations = &observations, .refits = &refits},
+                                models.front().effects, rules.gain, evidence.settings.seed);
+  Evidence within = evidence;
+  within.observations = std::move(observations);
+  decision.freed = std::make_shared<const Evidence>(std::move(within));
+  decision.verdict = Verdict::named;
+  decision.partial.reset();
+  decision.possible = std::move(models);
+  return decision;
+}
+
+/// Every law of the rate by itself: where levels of temperature stay free none of them may explain the data, since each
+/// temperature shifts it.
+std::vector<FittedModel> rate_laws(const Evidence& evidence) {
+  std::vector<FittedModel> laws;
+  for (const FittedModel& single : evidence.singles)
+    if (have_rate_law(single.effects)) laws.push_back(single);
+  return laws;
+}
+
+/// Mean error on held-out specimens where levels stay free.
+double error_with_levels(const Evidence& evidence, const Decision& decision) {
+  if (decision.gain) return decision.gain->held_out_error_after;
+  const Procedure& rules = evidence.settings.procedure;
+  return held_out_gain(evidence.observations, evidence.base.fit, {}, {}, rules.gain, evidence.settings.seed)
+      .held_out_error_before;
+}
+
+}  // namespace
+
+bool machines_are_compared(const Observations& observations) {
+  if (observations.machines.size() != 2) return false;
+  std::array<std::set<std::string>, 2> tested;
+  for (const Observation& group : observations.groups) {
+    std::set<std::string>& own = tested[group.machine];
+    for (const std::string& piece : group.pieces) own.insert("piece " + piece);
+    for (const std::string& batch : group.batches) own.insert("batch " + batch);
+  }
+  return std::ranges::any_of(tested[0], [&](const std::string& name) { return tested[1].contains(name); });
+}
+
+Decision with_condition_laws(const Evidence& evidence, Decision decision) {
+  if (evidence.factors.empty()) return decision;
+  const Procedure& rules = evidence.settings.procedure;
+  std::vector<std::string> left = evidence.factors.front();
+  for (const std::string& condition : told_factors(evidence.factors)) {
+    const bool is_free = decision.finding.reason == Reason::free_form, is_rate = condition == kStrainRate;
+    if (is_rate && !is_free) continue;  // a law of the library explains the data, or nothing depends on it
+    // What effects explain beside levels may be what the law explains: without them first.
+    std::vector<FittedModel> beside;
+    if (is_rate || !is_free) beside.push_back(evidence.base.fit);
+    if (!is_rate) beside.insert(beside.end(), decision.possible.begin(), decision.possible.end());
+    if (is_free && condition == "temperature") beside = rate_laws(evidence);
+    std::vector<std::string> others = left;
+    std::erase(others, condition);
+    // Laws of the rate and of temperature say how it goes with the rate: free exponents would take their place.
+    const bool stays_free = is_free && condition == "machine";
+    Observations observations = freed(evidence.observations, others, stays_free, rules.noise);
+    std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, beside, condition);
+    if (fitting.empty()) continue;
+    if (std::vector<std::string> rivals = laws_among(fitting); rivals.size() > 1) {
+      decision.rival_laws = std::move(rivals);
+      continue;
+    }
+    std::erase_if(fitting, [count = fitting.front().effects.size()](const FittedModel& model) {
+      return model.effects.size() != count;
+    });
+    const double with_levels = error_with_levels(evidence, decision);
+    Decision with_law = named_with(evidence, decision, std::move(fitting), std::move(observations), others);
+    const double without = with_law.gain->held_out_error_before, after = with_law.gain->held_out_error_after;
+    if (without - after < rules.gain.law_share * (without - with_levels)) continue;
+    if (is_rate && after >= with_levels) continue;  // free exponents say as much, and differ between materials
+    decision = std::move(with_law);
+    if (!stays_free)
+      decision.finding = {.reason =
+                              decision.possible.front().effects.size() > 1 ? Reason::two_effects : Reason::one_effect};
+    left = others;
+  }
+  return decision;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,21 @@
+#pragma once
+// Laws in place of free levels: where homogeneous specimens depend on a condition that effects were judged without
+// (factors.hpp), a law of that condition which explains the data says more than one level for each of its values.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/verdict.hpp"
+
+namespace nacre::diagnosis {
+
+/// Whether the difference between two machines is theirs: a piece or a batch was tested on both. Where there are other
+/// than two machines no law can be told.
+bool machines_are_compared(const Observations& observations);
+
+/// The decision with the law of each condition at work (material::condition_laws()) that explains the data in place of
+/// its levels; of the strain rate in free form where it also predicts held-out specimens better. Where several laws
+/// do, and none by NameRules::lead better than the next, levels stay, and the laws are Decision::rival_laws.
+Decision with_condition_laws(const Evidence& evidence, Decision decision);
+
+}  // namespace nacre::diagnosis
