@@ -166,9 +166,11 @@ FeatureValues fracture_features(const tester::Curve& curve, const CurveReading& 
   return values;
 }
 
-FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading) {
+FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading, std::optional<double> up_to) {
   FeatureValues values;
-  const tester::Curve forward = smoothed(measurement::forward_part(curve), reading);
+  tester::Curve forward = measurement::forward_part(curve);
+  if (up_to) forward = tester::cut_at(forward, *up_to);
+  forward = smoothed(forward, reading);
   const std::optional<Rise> rise = rise_of(forward);
   if (!rise) return values;
   put_rise(values, *rise);

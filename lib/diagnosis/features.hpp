@@ -57,8 +57,9 @@ FeatureValues fracture_features(const tester::Curve& curve, const CurveReading& 
 /// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee
 /// (over all of the curve: a plateau behind the peak bends it too), and of the first unloading where there is one. Its
 /// strain is not among them: it is where the test was stopped. Readings that scatter are smoothed first
-/// (smoothing.hpp).
-FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading);
+/// (smoothing.hpp). `up_to`: strain to which the way up is read, of coupons that were unloaded at strains of their own.
+FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading,
+                               std::optional<double> up_to = std::nullopt);
 
 /// Whether a tensile curve goes back on its way.
 bool is_unloaded(const tester::Curve& curve, const CurveReading& reading);

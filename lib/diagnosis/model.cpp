@@ -157,11 +157,11 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
                              Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
-  FeatureValues values = tensile_features(coupon_curve(g, set), observations_.reading);
+  FeatureValues values = tensile_features(coupon_curve(g, set), observations_.reading, g.read_up_to);
   if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: no information on stresses
     material::ParameterSet without = set;
     without.extensions.erase("toe_slack");
-    values = tensile_features(coupon_curve(g, without), observations_.reading);
+    values = tensile_features(coupon_curve(g, without), observations_.reading, g.read_up_to);
   }
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[row].feature);

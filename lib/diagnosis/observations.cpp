@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -80,6 +81,14 @@ std::optional<double> common_strain(const std::vector<Measured>& replicates, con
     if (!strain) return std::nullopt;
     common = std::min(common.value_or(*strain), *strain);
   }
+  return common;
+}
+
+/// Unloaded coupons turn at different strains: the least of the largest.
+double common_turn(const std::vector<Measured>& replicates) {
+  double common = std::numeric_limits<double>::infinity();
+  for (const Measured& each : replicates)
+    common = std::min(common, *std::ranges::max_element(each.specimen->curve.strain));
   return common;
 }
 
@@ -341,8 +350,14 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     if (common)
       for (Measured& each : groups.back())
         each.features = tensile_features(tester::cut_at(each.specimen->curve, *common), reading);
+    std::optional<double> turn;
+    if (coupons && is_unloaded_coupon(*groups.back().front().specimen, reading)) {
+      turn = common_turn(groups.back());
+      for (Measured& each : groups.back()) each.features = tensile_features(each.specimen->curve, reading, turn);
+    }
     groups.back() = one_of_each_piece(groups.back());
     observations.groups.push_back(mean_of(groups.back(), reading));
+    observations.groups.back().read_up_to = turn;
     if (common) observations.groups.back().curve = tester::cut_at(observations.groups.back().curve, *common);
   }
   std::set<std::string> machines;

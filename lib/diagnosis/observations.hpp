@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@ struct Observation {
   measurement::Surroundings surroundings = {};  ///< of the first replicate
   int machine = 0;                              ///< its number in the order of the names of all machines, from 0
   bool unloaded = false;                        ///< a coupon that was unloaded on its way
+  std::optional<double> read_up_to = {};        ///< of unloaded ones: the strain that all replicates reach
   FeatureValues features;                       ///< means over the valid replicates
   int replicates = 0;                           ///< pieces: tests of one piece count once
   std::vector<std::string> pieces;              ///< sorted
