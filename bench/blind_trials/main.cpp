@@ -103,6 +103,14 @@ int main(int argc, char** argv) {
   app.add_option("--alike", options.trials.alike)->capture_default_str();
   app.add_option("--homogeneous", options.trials.homogeneous, "Trials of tabulated moduli of blends")
       ->capture_default_str();
+  app.add_option("--loops", options.trials.loops, "Trials of coupons that are unloaded on their way")
+      ->capture_default_str();
+  app.add_option("--machines", options.trials.machines, "Trials of tabulated moduli from two machines")
+      ->capture_default_str();
+  app.add_option("--spectra", options.trials.spectra, "Trials of tabulated moduli over seven decades of the rate")
+      ->capture_default_str();
+  app.add_option("--warm", options.trials.warm, "Trials of tabulated moduli at three temperatures")
+      ->capture_default_str();
   app.add_option("--distorted", options.trials.distorted, "Trials of moduli that a smooth law distorts")
       ->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();

@@ -71,6 +71,13 @@ SealedEffect faintest(const Score& score) {
                                             [](const SealedEffect& a, const SealedEffect& b) { return a.snr < b.snr; });
 }
 
+/// The causes that a trial hides. What a rate law hides at several temperatures is a shift of the rate too.
+std::vector<std::string> hidden_causes(const BlindTrial& trial) {
+  std::vector<std::string> causes = causes_of(trial.hidden);
+  if (trial.kind == "warm" && !causes.empty()) causes.emplace_back("temperature_shift");
+  return causes;
+}
+
 // Which trials a rate is over, and when it is reached in them.
 using Condition = std::function<bool(const Score&)>;
 
@@ -91,7 +98,7 @@ bool fair(const Score& s) {
 bool named_rightly(const Score& s) { return s.right_name; }
 bool named_wrongly(const Score& s) {
   return s.diagnosis.verdict == "named" && std::ranges::any_of(s.diagnosis.named, [&](const FoundEffect& named) {
-           return std::ranges::count(causes_of(s.trial.hidden), cause_of(named.effect)) == 0;
+           return std::ranges::count(hidden_causes(s.trial), cause_of(named.effect)) == 0;
          });
 }
 bool named_of_another_family(const Score& s) { return s.diagnosis.verdict == "named" && !s.right_family; }
@@ -104,6 +111,12 @@ Condition visible_homogeneous(bool known) {
   };
 }
 bool homogeneous_null(const Score& s) { return s.trial.kind == "homogeneous" && s.trial.hidden.empty(); }
+/// Of a kind of trial some of which hide nothing.
+Condition hiding(std::string_view kind, bool hides) {
+  return [=](const Score& s) {
+    return s.trial.kind == kind && s.trial.hidden.empty() != hides && (!hides || faintest(s).snr >= 8.0);
+  };
+}
 
 struct TrialRate {
   std::string_view name;
@@ -137,6 +150,21 @@ std::vector<TrialRate> rates() {
       {"homogeneous, another form: a name of another family", visible_homogeneous(false), named_of_another_family, "0"},
       {"homogeneous, nothing hidden: base sufficient", homogeneous_null, has_verdict("base_sufficient"), ">= 97 %"},
       {"homogeneous, nothing hidden: any name", homogeneous_null, has_verdict("named"), "0"},
+      {"loops of coupons, SNR >= 8: its family named", visible_of_kind("loops"), right_family, ">= 95 %"},
+      {"loops of coupons: a name of another family", hiding("loops", true), named_of_another_family, "0"},
+      {"loops of coupons, nothing hidden: base sufficient", hiding("loops", false), has_verdict("base_sufficient"),
+       ">= 97 %"},
+      {"two machines, SNR >= 8: right name", hiding("machines", true), named_rightly, ">= 95 %"},
+      {"two machines that are alike: base sufficient", hiding("machines", false), has_verdict("base_sufficient"),
+       ">= 97 %"},
+      {"two machines: a wrong name", of_kind("machines"), named_wrongly, "0"},
+      {"seven decades of the rate, SNR >= 8: right name", hiding("spectrum", true), named_rightly, ">= 95 %"},
+      {"seven decades, nothing hidden: base sufficient", hiding("spectrum", false), has_verdict("base_sufficient"),
+       ">= 97 %"},
+      {"rates at three temperatures, SNR >= 8: rate and shift named", hiding("warm", true), named_rightly, ">= 95 %"},
+      {"temperatures without effect: base sufficient", hiding("warm", false), has_verdict("base_sufficient"),
+       ">= 97 %"},
+      {"rates at three temperatures: a wrong name", of_kind("warm"), named_wrongly, "0"},
       {"collinear causes: right single name", of_kind("alike"), named_rightly, ""},
       {"pair: reported as a set", of_kind("pair"), right_set, ">= 95 %"},
       {"pair: resolved by the tests it orders, four at most", of_kind("resolved"), named_rightly, ">= 80 %"},
@@ -214,16 +242,16 @@ std::string trial_table(const std::vector<Score>& scores) {
 
 Score score_of(const BlindTrial& trial, const TrialDiagnosis& diagnosis) {
   Score score{trial, diagnosis};
-  score.right_name = diagnosis.verdict == "named" && same(causes_of(names_of(diagnosis)), causes_of(trial.hidden));
+  score.right_name = diagnosis.verdict == "named" && same(causes_of(names_of(diagnosis)), hidden_causes(trial));
   score.in_set = std::any_of(diagnosis.possible.begin(), diagnosis.possible.end(),
-                             [&](const auto& model) { return same(causes_of(model), causes_of(trial.hidden)); });
+                             [&](const auto& model) { return same(causes_of(model), hidden_causes(trial)); });
   if (trial.hidden.empty()) return score;
   score.right_family =
       diagnosis.verdict == "named" && std::ranges::all_of(diagnosis.named, [&](const FoundEffect& named) {
         return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
       });
   // Of homogeneous specimens the first parameter may be that of a phase which none of them holds.
-  if (!score.right_name || trial.kind == "homogeneous") return score;
+  if (!score.right_name || trial.kind == "homogeneous" || trial.kind == "warm") return score;
   const FoundEffect& named = *std::find_if(diagnosis.named.begin(), diagnosis.named.end(), [&](const FoundEffect& n) {
     return cause_of(n.effect) == cause_of(trial.hidden.front());
   });

@@ -3,8 +3,11 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -83,6 +86,14 @@ std::vector<lab::Experiment> pulled_coupons(std::span<const double> fractions, s
   return experiments;
 }
 
+/// Coupons of five mixtures at three rates, each unloaded on its way.
+std::vector<lab::Experiment> unloaded_coupons(tester::Fidelity fidelity) {
+  constexpr std::array kRates = {1e-4, 1e-2, 1.0};
+  std::vector<lab::Experiment> experiments = pulled_coupons(kCouponFractions, kRates, fidelity);
+  for (lab::Experiment& each : experiments) each.loading = {{0.02, 0.005, 0.022}};
+  return experiments;
+}
+
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
 std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
                                                  const std::vector<lab::Experiment>& experiments,
@@ -92,9 +103,10 @@ std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
     const lab::Experiment& q = experiments[i];
     for (int r = 0; r < kReplicates; ++r) {
       measurement::SpecimenRecord record;
-      record.specimen =
-          fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}-{}", q.design.name(), tester::to_string(q.test),
-                      q.conditions.orientation_deg, q.conditions.strain_rate_per_s, q.conditions.thickness_mm, r + 1);
+      const std::string warm = q.temperature_c ? fmt::format("-{:g}C", *q.temperature_c) : "";
+      record.specimen = fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}{}-{}", q.design.name(), tester::to_string(q.test),
+                                    q.conditions.orientation_deg, q.conditions.strain_rate_per_s,
+                                    q.conditions.thickness_mm, warm, r + 1);
       record.design = q.design;
       record.test = q.test;
       record.conditions = q.conditions;
@@ -124,15 +136,23 @@ Specimens without_fractures(Specimens specimens) {
   return specimens;
 }
 
+/// Replicate i of a trial. Of two machines every second replicate is tested on each, and every batch on both.
+lab::Replicate replicate_of(const BlindTrial& trial, const measurement::SpecimenRecord& planned, std::size_t i) {
+  lab::Replicate replicate{planned.specimen, planned.batch, planned.print_order};
+  if (trial.kind != "machines") return replicate;
+  replicate.on_second_machine = (i % kReplicates + i / kReplicates) % 2 == 1;
+  replicate.machine = replicate.on_second_machine ? "second" : "first";
+  return replicate;
+}
+
 /// The planned specimens with values without scatter.
-Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& experiments,
+Specimens without_scatter(const BlindTrial& trial, lab::Truth truth, const std::vector<lab::Experiment>& experiments,
                           const std::vector<Result<lab::TrueResponse>>& responses, const Specimens& planned) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Specimens records;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records.push_back(lab::record_specimen(truth, experiments[q], responses[q],
-                                           {planned[i].specimen, planned[i].batch, planned[i].print_order}));
+    records.push_back(lab::record_specimen(truth, experiments[q], responses[q], replicate_of(trial, planned[i], i)));
   }
   return without_fractures(std::move(records));
 }
@@ -179,7 +199,7 @@ std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const la
   if (trial.hidden.empty()) return {};
   const auto shown = [&](std::span<const std::string> names) {
     const lab::Truth hiding = hiding_only(truth, names);
-    return without_scatter(hiding, experiments, responses_of(hiding, experiments), planned);
+    return without_scatter(trial, hiding, experiments, responses_of(hiding, experiments), planned);
   };
   std::vector<diagnosis::PlannedEffect> rivals;  // computed only where there are any
   if (std::ranges::any_of(trial.hidden, material::find_effect))
@@ -218,18 +238,31 @@ void distort(const BlindTrial& trial, Specimens& records) {
     if (record.modulus_pa) *record.modulus_pa *= distortion(trial, *record.modulus_pa / largest_pa);
 }
 
-/// Moduli of five blends at four rates, or of three at three: no layout, no curve.
+bool is_tabulated(const BlindTrial& trial) {
+  static const std::set<std::string, std::less<>> kinds = {"homogeneous", "machines", "spectrum", "warm"};
+  return kinds.contains(trial.kind);
+}
+
+/// Moduli of five blends at four rates, or of three at three, in trials of kind `warm` each at three temperatures, of
+/// kind `spectrum` of two at seven rates: no layout, no curve.
 std::vector<lab::Experiment> tabulated_moduli(const BlindTrial& trial, tester::Fidelity fidelity) {
-  const bool many = trial.seed % 2 == 0;
-  const std::vector<double> blends = many ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5, 0.75, 1.0},
-                            rates_per_s = many ? std::vector{1e-4, 1e-3, 1e-2, 1e-1} : std::vector{1e-3, 1e-2, 1e-1};
+  const bool many = trial.seed % 2 == 0, sweeps = trial.kind == "spectrum";
+  std::vector<double> blends = many ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5, 0.75, 1.0},
+                      rates_per_s = many ? std::vector{1e-4, 1e-3, 1e-2, 1e-1} : std::vector{1e-3, 1e-2, 1e-1};
+  if (sweeps) blends = {0.0, 1.0};
+  if (sweeps) rates_per_s = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
   std::vector<lab::Experiment> experiments;
+  using Temperatures = std::vector<std::optional<double>>;
+  const Temperatures temperatures_c =
+      trial.kind == "warm" ? Temperatures{10.0, 25.0, 45.0} : Temperatures{std::nullopt};
   for (const double blend : blends)
     for (const double rate_per_s : rates_per_s)
-      experiments.push_back({.design = pattern::Mixture{blend},
-                             .test = TestKind::modulus,
-                             .conditions = {.strain_rate_per_s = rate_per_s},
-                             .fidelity = fidelity});
+      for (const std::optional<double>& temperature_c : temperatures_c)
+        experiments.push_back({.design = pattern::Mixture{blend},
+                               .test = TestKind::modulus,
+                               .conditions = {.strain_rate_per_s = rate_per_s},
+                               .fidelity = fidelity,
+                               .temperature_c = temperature_c});
   return experiments;
 }
 
@@ -284,6 +317,10 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   for (int i = 0; i < options.distorted; ++i) add("distorted", "moduli", {}, i % 2 == 0, i / 2 % 2 == 1);
   add_in_turn("homogeneous", {"", "rate_power_law", "rate_dependence", "blend_law", "soft_rate_dependence"},
               options.homogeneous);
+  add_in_turn("machines", {"", "one_machine_compliance", "one_machine_gain"}, options.machines);
+  add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
+  add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
+  add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);
   return trials;
 }
 
@@ -306,7 +343,8 @@ lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
 
 std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options) {
   if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
-  if (trial.kind == "homogeneous") return tabulated_moduli(trial, options.fidelity);
+  if (trial.kind == "loops") return unloaded_coupons(options.fidelity);
+  if (is_tabulated(trial)) return tabulated_moduli(trial, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
@@ -353,8 +391,7 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
                                           signals_of(trial, sealing, truth, experiments, records));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records[i] = lab::record_specimen(truth, experiments[q], responses[q],
-                                      {records[i].specimen, records[i].batch, records[i].print_order});
+    records[i] = lab::record_specimen(truth, experiments[q], responses[q], replicate_of(trial, records[i], i));
   }
   if (trial.kind == "distorted") distort(trial, records);
   fs::create_directories(folder);

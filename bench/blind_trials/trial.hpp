@@ -15,7 +15,8 @@ namespace nacre::blind_trials {
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
 struct BlindTrial {
   std::string name;  ///< unique, a file name
-  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even, distorted
+  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even, distorted,
+                     ///< homogeneous, loops, machines, spectrum, warm
   std::uint64_t seed = 1;
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
@@ -26,6 +27,7 @@ struct TrialOptions {
   tester::Fidelity fidelity = tester::Fidelity::tiny;
   bool fracture = false;  ///< toughness specimens besides the moduli
   int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15, distorted = 60, homogeneous = 50;
+  int loops = 40, machines = 30, spectra = 40, warm = 30;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
@@ -42,7 +44,11 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options);
 /// five known effects in another functional form, whose family is the right name; `even`: unmodelled causes that act on
 /// all turned, or all thin, specimens by one factor. Kind `distorted`: moduli that the machine shows by a smooth law of
 /// their own size, on upright layouts alone. Kind `homogeneous`: tabulated moduli of blends at several rates, under
-/// rate laws of three forms, blends off the mixture law, or nothing.
+/// rate laws of three forms, blends off the mixture law, or nothing. Kind `loops`: coupons that are unloaded on their
+/// way, at three rates: a phase that flows, relaxation in two forms, or nothing. Kind `machines`: the same on two
+/// machines, of which one has a compliance or a gain of its own, or nothing; `spectrum`: of two materials over seven
+/// decades, under three rate laws, or nothing; `warm`: at three temperatures that shift the rate, under two rate laws,
+/// or nothing.
 std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// The truth of a trial's laboratory.

@@ -52,8 +52,8 @@ TrueGain true_gain(const BlindTrial& trial, const TrialOptions& options, const f
   const Evidence evidence =
       gather_evidence(data_of(measurement::read_measurement_set(folder / "set").specimens, settings), settings);
   const auto gain_among = [&](const std::vector<FittedModel>& models, double least_drop) {
-    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop,
-                         settings.procedure.gain, settings.seed);
+    return held_out_gain(evidence.observations, evidence.base.fit, {.models = models, .least_drop = least_drop},
+                         trial.hidden, settings.procedure.gain, settings.seed);
   };
   const Gain named = gain_among(evidence.singles, drop_needed(evidence)),
              truth = gain_among({true_model(evidence, truth_of(trial, options), trial.hidden)},
