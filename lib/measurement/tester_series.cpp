@@ -13,6 +13,7 @@
 #include "base/csv.hpp"
 #include "measurement/candidate_column.hpp"
 #include "measurement/cell_units.hpp"
+#include "measurement/decimal_marks.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 
@@ -63,13 +64,6 @@ class SeriesReader {
     if (!fault_) fault_ = ImportFault{file_, static_cast<int>(line), std::move(column), std::move(reason)};
   }
 
-  std::vector<std::string_view> cells_of_column(std::size_t column) const {
-    std::vector<std::string_view> cells;
-    cells.reserve(rows_.size());
-    for (const std::size_t row : rows_) cells.push_back(block_.cell(row, column));
-    return cells;
-  }
-
   /// Whether the column may be taken for a quantity, so that its numbers matter.
   bool matters(std::size_t column) const {
     const ColumnName& name = block_.columns[column];
@@ -81,42 +75,17 @@ class SeriesReader {
     return false;
   }
 
-  /// The decimal mark of each column: its own, else that of the others, else that of the delimiter.
   void find_marks() {
-    std::optional<DecimalMark> usual, lone;
-    bool one_lone = true;
-    for (const std::size_t column : columns_) {
-      if (!matters(column)) continue;
-      const ColumnMark found = column_mark(cells_of_column(column));
-      if (found.contradiction > 0) {
-        const auto line_at = [&](std::size_t place) { return block_.lines[rows_[place]] + 1; };
-        contradiction_ = std::min(contradiction_, line_at(found.contradiction));
-        contradicted_ = line_at(found.first);
-        contradictory_.push_back(column);
-        continue;
-      }
-      marks_[column] = found.mark;
-      if (found.mark && !usual) usual = found.mark;
-      one_lone = one_lone && (!found.lone || lone.value_or(*found.lone) == *found.lone);
-      if (found.lone) lone = found.lone;
-    }
-    if (!one_lone) lone.reset();
-    default_mark_ = usual.value_or(lone.value_or(delimiter_ == ',' ? DecimalMark::point : DecimalMark::comma));
-    if (!usual && lone && delimiter_ != ',')
-      series_.warnings.push_back(fmt::format(
-          "{}: every number with a {} has three digits behind it; it is read as the decimal mark, not as one of "
-          "thousands",
-          file_, *lone == DecimalMark::comma ? "comma" : "point"));
-    series_.decimal_mark = default_mark_ == DecimalMark::comma ? ',' : '.';
-  }
-
-  DecimalMark mark_of(std::size_t column) const {
-    const auto own = marks_.find(column);
-    return own == marks_.end() ? default_mark_ : own->second.value_or(default_mark_);
+    std::vector<std::size_t> columns;
+    std::copy_if(columns_.begin(), columns_.end(), std::back_inserter(columns),
+                 [&](std::size_t column) { return matters(column); });
+    marks_ = decimal_marks(block_, columns, rows_, delimiter_);
+    if (marks_.is_assumed) series_.warnings.push_back(doubt_of_marks(marks_, file_));
+    series_.decimal_mark = marks_.usual == DecimalMark::comma ? ',' : '.';
   }
 
   std::optional<double> value_at(std::size_t row, std::size_t column) const {
-    return instrument_number(block_.cell(row, column), mark_of(column));
+    return instrument_number(block_.cell(row, column), marks_.of(column));
   }
 
   /// Range of a column's numbers, and how many of its cells are none.
@@ -266,12 +235,7 @@ class SeriesReader {
     say_choice(quantity, *taken, all, column);
     if (taken->match < 3) doubt_choice(quantity, *taken, all);
     if (!find_factor(quantity, *taken->name, column)) return;
-    if (std::count(contradictory_.begin(), contradictory_.end(), taken->column) > 0) {
-      return reject(contradiction_, "",
-                    fmt::format("decimal points and decimal commas in one file (line {} has the other mark), "
-                                "expected one of them throughout",
-                                contradicted_));
-    }
+    if (marks_.contradict(taken->column)) return reject(marks_.contradiction, "", fault_of_marks(marks_));
     const bool falls = quantity == Quantity::extension && choice_.extension_falls;
     if (falls)
       series_.decisions.push_back(
@@ -358,7 +322,7 @@ class SeriesReader {
           fmt::format("`{}` is not a number, expected {}; is the file cut off or edited?", text, to_string(quantity)));
     reject(line, heading,
            fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
-                       mark_of(column) == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
+                       marks_.of(column) == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
   }
 
   /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
@@ -467,10 +431,7 @@ class SeriesReader {
   const ColumnChoice& choice_;
   const std::string& file_;
   ColumnSeries series_;
-  std::map<std::size_t, std::optional<DecimalMark>> marks_;
-  std::vector<std::size_t> contradictory_;
-  std::size_t contradiction_ = static_cast<std::size_t>(-1), contradicted_ = 0;
-  DecimalMark default_mark_ = DecimalMark::point;
+  DecimalMarks marks_;
   std::optional<ImportFault> fault_;
 };
 
