@@ -1,9 +1,21 @@
 #include "measurement/column_choice.hpp"
 
+#include <algorithm>
+
 #include "base/csv.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
+
+std::vector<std::string> units_of_sheet(const ColumnChoice& choice) {
+  std::vector<std::string> units;
+  for (std::size_t begin = 0; begin < choice.unit.size();) {
+    const std::size_t end = std::min(choice.unit.find_first_of(" ,;", begin), choice.unit.size());
+    if (end > begin) units.push_back(choice.unit.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return units;
+}
 
 int match(std::string_view heading, std::string_view name_without_unit, std::string_view wanted) {
   if (wanted.empty() || heading.empty()) return 0;

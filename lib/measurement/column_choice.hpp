@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "measurement/tester_vocabulary.hpp"
 
@@ -30,6 +31,9 @@ struct ColumnChoice {
   }
   bool operator==(const ColumnChoice&) const = default;
 };
+
+/// The units that a sheet gives, `mm kN s`, one by one.
+std::vector<std::string> units_of_sheet(const ColumnChoice& choice);
 
 /// How well a heading answers to a wanted name: 3 it is the name, 2 it is but for case, accents and the unit, 1 it
 /// holds its words, 0 not at all.

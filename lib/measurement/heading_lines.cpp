@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "measurement/tester_columns.hpp"
+#include "measurement/tester_delimiter.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
@@ -46,6 +47,17 @@ bool tells_roles(const std::vector<std::string_view>& cells) {
   }
   const bool is_title = filled == 1 && !cells.front().empty();
   return 2 * roles > filled && !is_title;
+}
+
+bool is_unit_row(const std::vector<std::string_view>& cells, bool (*is_known)(std::string_view)) {
+  std::size_t units = 0, others = 0;
+  for (const std::string_view cell : cells) {
+    if (cell.empty()) continue;
+    const bool bracketed =
+        cell.size() > 2 && (cell.front() == '(' || cell.front() == '[') && (cell.back() == ')' || cell.back() == ']');
+    ++(bracketed || (!is_number(cell) && is_known(bare_unit(cell))) ? units : others);
+  }
+  return units > others;
 }
 
 }  // namespace nacre::measurement

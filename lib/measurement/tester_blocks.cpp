@@ -19,15 +19,6 @@
 namespace nacre::measurement {
 namespace {
 
-bool is_blank(std::string_view line) { return line.find_first_not_of(" \t,;|\"\r") == std::string_view::npos; }
-
-bool has_letter(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-           static_cast<unsigned char>(letter) > 127;
-  });
-}
-
 class TableFinder {
  public:
   TableFinder(const std::vector<std::string_view>& lines, std::string file, const ColumnChoice& choice)
@@ -81,18 +72,6 @@ class TableFinder {
   }
   bool is_heading(const std::vector<ColumnName>& names) const {
     return holds(names, abscissa()) && holds(names, ordinate());
-  }
-
-  /// Whether a line is a row of units: most of its filled cells are one, or stand in brackets.
-  static bool is_unit_row(const Cells& cells) {
-    std::size_t units = 0, others = 0;
-    for (const std::string_view cell : cells) {
-      if (cell.empty()) continue;
-      const bool bracketed =
-          cell.size() > 2 && (cell.front() == '(' || cell.front() == '[') && (cell.back() == ')' || cell.back() == ']');
-      ++(bracketed || (!is_number(cell) && is_unit(bare_unit(cell))) ? units : others);
-    }
-    return units > others;
   }
 
   /// The heading that a line of words and the next give together; empty where one of them is the heading and the other

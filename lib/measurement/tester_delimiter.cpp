@@ -8,6 +8,15 @@
 
 namespace nacre::measurement {
 
+bool is_blank(std::string_view line) { return line.find_first_not_of(" \t,;|\"\r") == std::string_view::npos; }
+
+bool has_letter(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+           static_cast<unsigned char>(letter) > 127;
+  });
+}
+
 bool is_number(std::string_view cell) {
   if (cell.empty()) return false;
   return instrument_number(cell, DecimalMark::point) || looks_like_number(cell);

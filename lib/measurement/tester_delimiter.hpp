@@ -9,6 +9,10 @@ namespace nacre::measurement {
 
 using Cells = std::vector<std::string_view>;  ///< of one line
 
+/// Whether a line holds nothing but blanks, delimiters and quotes.
+bool is_blank(std::string_view line);
+/// Whether a text holds a letter, of any script.
+bool has_letter(std::string_view text);
 bool is_number(std::string_view cell);
 /// The same, or a number with its unit behind it.
 bool is_measured(std::string_view cell);

@@ -275,19 +275,15 @@ class SeriesReader {
             fmt::format("{}: `{}` in {}, as its cells say", to_string(quantity), name.heading, name.unit));
       return true;
     }
-    const std::string units = choice_.unit;
-    for (std::size_t begin = 0; begin < units.size();) {
-      const std::size_t end = std::min(units.find_first_of(" ,;", begin), units.size());
-      const std::string unit = units.substr(begin, end - begin);
-      if (const auto factor = unit_factor(quantity, unit); factor && !unit.empty()) {
-        column.unit = unit;
-        column.factor = *factor;
-        column.unit_of_sheet = true;
-        series_.decisions.push_back(
-            fmt::format("{}: `{}` in {}, as the sheet says", to_string(quantity), name.heading, unit));
-        return true;
-      }
-      begin = end + 1;
+    for (const std::string& unit : units_of_sheet(choice_)) {
+      const auto factor = unit_factor(quantity, unit);
+      if (!factor) continue;
+      column.unit = unit;
+      column.factor = *factor;
+      column.unit_of_sheet = true;
+      series_.decisions.push_back(
+          fmt::format("{}: `{}` in {}, as the sheet says", to_string(quantity), name.heading, unit));
+      return true;
     }
     if (name.unit.empty() || quantity == Quantity::time) return true;
     reject(block_.unit_line + 1, name.heading,
