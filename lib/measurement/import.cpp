@@ -4,19 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
 #include <span>
 
-#include "base/files.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/loading_part.hpp"
 #include "measurement/plausibility.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/sheet_exports.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "measurement/strain_rate.hpp"
@@ -33,119 +32,6 @@ double rounded(double value, int digits) {
   const double scale = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
   return std::round(value * scale) / scale;
 }
-
-/// The exports, each read once.
-class Exports {
- public:
-  Exports(const std::vector<fs::path>& files, fs::path folder) : files_(files), folder_(std::move(folder)) {}
-
-  /// The test of a row, which must outlive this, or what is wrong with it.
-  tl::expected<TesterRecord, ImportFault> record_of(const SheetRow& row, const std::string& sheet) {
-    const auto path = find(row.file);
-    if (!path) return tl::unexpected(ImportFault{sheet, row.line, "file", path.error().message});
-    const auto& records = read(*path, row.columns);
-    if (!records) return tl::unexpected(records.error());
-    const auto part = part_of(*records, row.part);
-    if (!part) {
-      return tl::unexpected(ImportFault{
-          sheet, row.line, "part",
-          row.part.empty()
-              ? fmt::format("`{}` holds {} tests, expected the name or number of one in the column `part`: {}",
-                            row.file, records->size(), part.error())
-              : fmt::format("`{}`, but `{}` holds {} tests: {}", row.part, row.file, records->size(), part.error())});
-    }
-    const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), *part}, &row);
-    if (!is_first) {
-      return tl::unexpected(ImportFault{sheet, row.line, "file",
-                                        fmt::format("`{}` is already specimen {} (line {}), expected a test of its own",
-                                                    row.file, owner->second->record.specimen, owner->second->line)});
-    }
-    const TesterRecord& record = (*records)[*part];
-    if (record.fault) return tl::unexpected(*record.fault);
-    return record;
-  }
-
-  /// Files that no row names.
-  std::vector<std::string> unused() const {
-    std::vector<std::string> names;
-    for (const fs::path& file : files_) {
-      if (!used_.contains(file.string())) names.push_back(file.string());
-    }
-    return names;
-  }
-
- private:
-  /// Place of the part that a sheet names or numbers; the error lists them all.
-  static tl::expected<std::size_t, std::string> part_of(const std::vector<TesterRecord>& records,
-                                                        const std::string& wanted) {
-    constexpr std::size_t kMostNamed = 20;
-    if (records.size() == 1 && wanted.empty()) return 0;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      if (!wanted.empty() && plain_words(records[i].part) == plain_words(wanted)) return i;
-      if (i < kMostNamed) names.push_back(records[i].part);
-    }
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-    if (error == std::errc{} && end == wanted.data() + wanted.size() && number >= 1 && number <= records.size())
-      return number - 1;
-    return tl::unexpected(fmt::format("{}{}", fmt::join(names, ", "), records.size() > kMostNamed ? ", ..." : ""));
-  }
-
-  Result<fs::path> find(const std::string& name) {
-    const auto matching = [&](auto same) {
-      std::vector<fs::path> found;
-      std::copy_if(files_.begin(), files_.end(), std::back_inserter(found), same);
-      return found;
-    };
-    if (files_.empty()) {
-      const fs::path in_folder = folder_ / name;
-      std::error_code unreadable;
-      if (fs::exists(in_folder, unreadable)) return in_folder;
-      return fail("there is no file {}, expected an export in the sheet's folder or on the command line",
-                  in_folder.string());
-    }
-    auto found = matching([&](const fs::path& file) { return file == name || file == folder_ / name; });
-    if (found.empty())
-      found = matching([&](const fs::path& file) { return file.filename() == fs::path(name).filename(); });
-    if (found.empty())
-      return fail("`{}` is not among the {} exports given, expected one of that name", name, files_.size());
-    if (found.size() > 1)
-      return fail("`{}` is the name of {} exports given, expected the path of one of them", name, found.size());
-    used_.insert(found.front().string());
-    return found.front();
-  }
-
-  /// Different columns of one file may be different tests.
-  static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
-    return path.lexically_normal().string() + fmt::format("\n{}\n{}\n{}\n{}\n{}\n{}\n{}", choice.extension_falls,
-                                                          choice.extension, choice.force, choice.time, choice.strain,
-                                                          choice.stress, choice.unit);
-  }
-
-  const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
-    const std::string key = key_of(path, choice);
-    const auto known = read_.find(key);
-    if (known != read_.end()) return known->second;
-    return read_.emplace(key, read_anew(path, choice)).first->second;
-  }
-
-  static tl::expected<std::vector<TesterRecord>, ImportFault> read_anew(const fs::path& path,
-                                                                        const ColumnChoice& choice) {
-    try {
-      return read_tester_export(read_file_up_to(path, kMostCurveBytes), path.string(), choice);
-    } catch (const InputError& error) {
-      return tl::unexpected(ImportFault{path.string(), 0, "", error.what()});
-    }
-  }
-
-  const std::vector<fs::path>& files_;
-  fs::path folder_;
-  std::set<std::string> used_;
-  std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
-  std::map<std::pair<std::string, std::size_t>, const SheetRow*>
-      owners_;  ///< key and part -> the first row of the test
-};
 
 /// Stress over strain as recorded, from `begin` on; `factor` of extension and of force where their units are assumed.
 tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row, const AssumedUnits& units) {
@@ -446,7 +332,7 @@ std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRe
 Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_file, const ImportSettings& settings) {
   SpecimenSheet sheet = read_specimen_sheet(sheet_file);
   Import import{.specimens = {}, .rejected = std::move(sheet.rejected), .warnings = std::move(sheet.warnings)};
-  Exports exports(files, sheet_file.parent_path());
+  SheetExports exports(files, sheet_file.parent_path());
   std::set<std::string> warned;
   std::vector<SpecimenRecord> records;
   std::map<std::string, std::vector<std::string>> gauge_doubts;  ///< specimens by doubt
