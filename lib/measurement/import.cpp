@@ -11,9 +11,11 @@
 
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/import_sweep.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/loading_part.hpp"
 #include "measurement/plausibility.hpp"
+#include "measurement/rounded.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/sheet_exports.hpp"
 #include "measurement/specimen_checks.hpp"
@@ -26,12 +28,6 @@ namespace nacre::measurement {
 namespace {
 
 namespace fs = std::filesystem;
-
-double rounded(double value, int digits) {
-  if (value == 0.0) return 0.0;
-  const double scale = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
-  return std::round(value * scale) / scale;
-}
 
 /// Stress over strain as recorded, from `begin` on; `factor` of extension and of force where their units are assumed.
 tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row, const AssumedUnits& units) {
@@ -318,9 +314,29 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   }
 }
 
+/// Adds the specimens of a sweep, whose names must not be others' of the sheet.
+void add_sweep(const SheetRow& row, const TesterRecord& from, const SpecimenSheet& sheet, const std::string& sheet_file,
+               Import& import, std::vector<SpecimenRecord>& records) {
+  auto sweep = import_sweep(row, from, sheet_file, import.warnings);
+  if (!sweep) return import.rejected.push_back(sweep.error());
+  for (const ImportedSpecimen& one : *sweep) {
+    const auto has_name = [&](const SheetRow& other) { return other.record.specimen == one.record.specimen; };
+    if (std::none_of(sheet.rows.begin(), sheet.rows.end(), has_name)) continue;
+    return import.rejected.push_back(
+        {sheet_file, row.line, "specimen",
+         fmt::format("`{}` would be a row of the sweep {} and is a specimen of the sheet, expected another name",
+                     one.record.specimen, row.record.specimen)});
+  }
+  for (ImportedSpecimen& one : *sweep) {
+    records.push_back(one.record);
+    import.specimens.push_back(std::move(one));
+  }
+}
+
 }  // namespace
 
 std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRecord> others) {
+  if (one.curve.empty()) return "";
   const auto twin = std::find_if(others.begin(), others.end(), [&](const SpecimenRecord& other) {
     return other.specimen != one.specimen && other.curve == one.curve;
   });
@@ -344,6 +360,10 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
     }
     for (const std::string& warning : record->warnings) {
       if (warned.insert(warning).second) import.warnings.push_back(warning);
+    }
+    if (record->sweep) {
+      add_sweep(row, *record, sheet, sheet_file.string(), import, records);
+      continue;
     }
     auto imported = import_one(row, *record, row.file, settings, import.warnings);
     if (!imported) {

@@ -26,11 +26,12 @@ namespace {
 constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
                                                        "width_mm", "thickness_mm", "gauge_mm"};
 /// `loading` is an instruction to the operator and is not read: the export has the actual loading.
-constexpr std::array<std::string_view, 16> kOptional = {"part",
+constexpr std::array<std::string_view, 17> kOptional = {"part",
                                                         "test",
                                                         "orientation_deg",
                                                         "strain_rate_per_s",
                                                         "planned_strain_rate_per_s",
+                                                        "strain_amplitude",
                                                         "loading",
                                                         "batch",
                                                         "print_order",
@@ -42,8 +43,9 @@ constexpr std::array<std::string_view, 16> kOptional = {"part",
                                                         "stress_column",
                                                         "unit",
                                                         "note"};
-constexpr std::array<std::string_view, 6> kMeasured = {
-    "width_mm", "thickness_mm", "gauge_mm", "orientation_deg", "strain_rate_per_s", "planned_strain_rate_per_s"};
+constexpr std::array<std::string_view, 7> kMeasured = {
+    "width_mm",        "thickness_mm", "gauge_mm", "orientation_deg", "strain_rate_per_s", "planned_strain_rate_per_s",
+    "strain_amplitude"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 /// Columns that the set computes from the export: the sheet's own columns of these names are dropped.
@@ -273,6 +275,7 @@ class SheetReader {
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
     read_rate(row);
+    row.strain_amplitude = number("strain_amplitude", 1e-9, 1.0, "a strain, 1e-9 to 1 (0.001 is 0.1 %)");
     record.batch = text("batch");
     record.print_order = integer_from_1("print_order");
     const std::string valid = plain_words(text("valid"));

@@ -28,6 +28,7 @@ struct SheetRow {
   double gauge_mm = 0.0;
   bool rate_is_given = false;                ///< by the operator: it wins over the recorded time
   std::optional<double> planned_rate_per_s;  ///< used where the recorded time gives no rate
+  std::optional<double> strain_amplitude;    ///< of a sweep whose table has no column of it
   ColumnChoice columns;
 };
 

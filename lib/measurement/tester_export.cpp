@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "measurement/sweep_blocks.hpp"
 #include "measurement/tester_blocks.hpp"
 #include "measurement/tester_encoding.hpp"
 #include "measurement/tester_header.hpp"
@@ -34,7 +35,30 @@ TesterRecord record_of(TesterPart part, const ExportTables& tables) {
   return record;
 }
 
+tl::expected<std::vector<TesterRecord>, ImportFault> sweep_record(const ExportTables& tables, const DecodedText& text,
+                                                                  const std::vector<std::string_view>& lines,
+                                                                  const ColumnChoice& choice, const std::string& file) {
+  auto sweep = sweep_of(tables, choice, file);
+  if (!sweep) return tl::unexpected(sweep.error());
+  TesterRecord record;
+  record.maker = "table";
+  record.encoding = text.encoding;
+  record.delimiter = tables.delimiter;
+  record.decimal_mark = sweep->decimal_mark;
+  record.part = "1";
+  record.header = header_of(std::span(lines).first(tables.blocks.front().heading), tables.delimiter);
+  record.decisions = sweep->decisions;
+  record.warnings = sweep->warnings;
+  for (const SweepPoint& point : sweep->points) record.line.push_back(point.line);
+  record.sweep = std::move(*sweep);
+  return std::vector{std::move(record)};
+}
+
 }  // namespace
+
+bool may_be_sweep(const ColumnChoice& choice) {
+  return choice.extension.empty() && choice.force.empty() && choice.strain.empty() && choice.stress.empty();
+}
 
 std::string to_string(const ImportFault& fault) {
   std::string place = fault.file;
@@ -49,6 +73,8 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
   const Result<DecodedText> text = decoded(bytes, hints);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
+  if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
+    return sweep_record(tables, *text, lines, choice, file);
   const auto tables = tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   ExportParts found = parts_of(*tables, choice, file);

@@ -1,7 +1,8 @@
 #pragma once
 // Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), Shimadzu
 // Trapezium, and plain tables of time, extension and force. They are read by the names of their columns, not by maker,
-// in stages: decoded() -> tables_of() -> parts_of() -> a record of each part.
+// in stages: decoded() -> tables_of() -> parts_of() -> a record of each part. Tables of a frequency sweep go another
+// way: decoded() -> sweep_tables_of() -> sweep_of() -> one record.
 
 #include <map>
 #include <string>
@@ -11,6 +12,7 @@
 #include "base/result.hpp"
 #include "measurement/column_choice.hpp"
 #include "measurement/import_fault.hpp"
+#include "measurement/sweep_table.hpp"
 #include "measurement/tester_columns.hpp"
 #include "measurement/tester_series.hpp"
 
@@ -36,12 +38,16 @@ struct TesterRecord {
   std::vector<std::string> decisions;  ///< which columns were taken and why, as sentences
   std::vector<std::string> warnings;
   bool is_bare = false;              ///< the file has no heading
+  std::optional<Sweep> sweep;        ///< a frequency sweep: the vectors above are empty, but for `line`
   std::optional<ImportFault> fault;  ///< why this part of the file cannot be used
 
   const std::optional<TakenColumn>& column(Quantity quantity) const {
     return taken[static_cast<std::size_t>(quantity)];
   }
 };
+
+/// Whether a file with a sweep's columns is one: the sheet names no columns of a test.
+bool may_be_sweep(const ColumnChoice& choice);
 
 /// Reads all tests of an export. `bytes` as on disk, `file` for messages. Errors name line, column and what was
 /// expected; of a file with several parts, the fault of one stays with it.

@@ -1,0 +1,152 @@
+#include "measurement/import_sweep.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "base/counted.hpp"
+#include "measurement/limits.hpp"
+#include "measurement/piece.hpp"
+#include "measurement/rounded.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+constexpr int kSweepDigits = 6;  // significant
+
+/// What speaks against taking the sheet's row for a sweep.
+std::optional<ImportFault> fault_of_sweep(const SheetRow& row, const Sweep& sweep, const std::string& sheet) {
+  const auto fault = [&](const char* column, const std::string& reason) {
+    return ImportFault{
+        sheet, row.line, column,
+        fmt::format("`{}` holds a frequency sweep (storage modulus by frequency), {}", row.file, reason)};
+  };
+  const std::string other =
+      "; a record of extension and force is read where the sheet names extension_column and "
+      "force_column";
+  if (row.record.test != tester::TestKind::modulus)
+    return fault("test",
+                 fmt::format("expected the test `modulus`, not `{}`{}", tester::to_string(row.record.test), other));
+  if (!row.record.design.mixture())
+    return fault("pattern", fmt::format("expected a homogeneous material (soft, interface, rigid, mix:F), not `{}`{}",
+                                        row.record.design.name(), other));
+  if (!sweep.column(SweepQuantity::amplitude) && !row.strain_amplitude)
+    return fault("strain_amplitude",
+                 fmt::format("expected the strain amplitude here (0.001 is 0.1 %), or a column such as `Oscillation "
+                             "strain (%)` in the file{}",
+                             sweep.no_amplitude.empty() ? "" : "; " + sweep.no_amplitude));
+  return std::nullopt;
+}
+
+/// Which columns and units the numbers came from.
+std::map<std::string, std::string> provenance_of_sweep(const TesterRecord& from, const SheetRow& row) {
+  std::map<std::string, std::string> cells = {{"part", from.part},
+                                              {"maker", from.maker},
+                                              {"encoding", from.encoding},
+                                              {"delimiter", std::string(delimiter_in_words(from.delimiter))},
+                                              {"decimal_mark", std::string(1, from.decimal_mark)},
+                                              {"width_mm", fmt::format("{}", row.width_mm)},
+                                              {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
+  for (const SweepQuantity quantity : {SweepQuantity::frequency, SweepQuantity::storage_modulus,
+                                       SweepQuantity::amplitude, SweepQuantity::temperature}) {
+    const auto& column = from.sweep->column(quantity);
+    if (!column) continue;
+    cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
+    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit;
+    cells[fmt::format("{}_not_taken", to_string(quantity))] = fmt::format("{}", fmt::join(column->not_taken, "; "));
+  }
+  return cells;
+}
+
+/// The measured modulus at one frequency; `common` is the same of all.
+ImportedSpecimen specimen_at(const SweepPoint& point, double amplitude, ImportedSpecimen common) {
+  SpecimenRecord& record = common.record;
+  record.modulus_pa = common.test.modulus_pa = rounded(point.storage_modulus_pa, kSweepDigits);
+  record.conditions.strain_rate_per_s = rounded(point.angular_frequency_per_s * amplitude, kSweepDigits);
+  if (point.temperature_c)
+    record.other_columns["temperature_c"] = fmt::format("{}", rounded(*point.temperature_c, kSweepDigits));
+  const double frequency_hz = point.angular_frequency_per_s / (2.0 * std::numbers::pi);
+  record.note +=
+      fmt::format("{}E' at {:.4g} Hz, amplitude {:.4g}", record.note.empty() ? "" : "; ", frequency_hz, amplitude);
+  common.provenance["first_line"] = common.provenance["last_line"] = fmt::format("{}", point.line);
+  return common;
+}
+
+/// What is the same at every frequency.
+ImportedSpecimen common_of(const SheetRow& row, const TesterRecord& from) {
+  ImportedSpecimen common{.record = row.record,
+                          .file = row.file,
+                          .line = row.line,
+                          .maker = from.maker,
+                          .extension_column = "",
+                          .gauge_mm = row.gauge_mm,
+                          .decisions = from.decisions};
+  const bool is_recorded = from.sweep->column(SweepQuantity::amplitude).has_value();
+  common.rate_source = is_recorded ? "record" : "sheet";
+  common.provenance = provenance_of_sweep(from, row);
+  common.decisions.push_back(
+      is_recorded
+          ? std::string("strain rate: angular frequency times the amplitude of the table")
+          : fmt::format("strain rate: angular frequency times the amplitude {} of the sheet", *row.strain_amplitude));
+  for (const auto& [name, text] : from.header) common.record.other_columns.try_emplace(name, text);
+  common.record.other_columns.try_emplace(std::string(kSampleColumn), row.record.specimen);
+  return common;
+}
+
+/// Doubts about a whole sweep, each once.
+void collect_sweep_doubts(const SheetRow& row, const Sweep& sweep, std::size_t left_out,
+                          std::vector<std::string>& warnings) {
+  const std::string who = fmt::format("specimen {}: ", row.record.specimen);
+  if (left_out > 0)
+    warnings.push_back(
+        fmt::format("{}{} left out, without an amplitude or with a strain rate not within {} to "
+                    "{} 1/s: are the units of frequency and amplitude right?",
+                    who, counted(static_cast<int>(left_out), "row"), kStrainRatePerS.least, kStrainRatePerS.most));
+  if (row.rate_is_given)
+    warnings.push_back(who + "strain_rate_per_s of the sheet is not used: a sweep has a rate for each frequency");
+  if (row.strain_amplitude && sweep.column(SweepQuantity::amplitude))
+    warnings.push_back(fmt::format("{}strain_amplitude of the sheet is not used: the file has `{}`", who,
+                                   sweep.column(SweepQuantity::amplitude)->heading));
+  const auto [least, most] =
+      std::minmax_element(sweep.points.begin(), sweep.points.end(),
+                          [](const auto& a, const auto& b) { return a.storage_modulus_pa < b.storage_modulus_pa; });
+  if (!kUsualModulusPa.hold(least->storage_modulus_pa) || !kUsualModulusPa.hold(most->storage_modulus_pa))
+    warnings.push_back(fmt::format("{}storage moduli from {:.3g} to {:.3g} Pa are unusual: is the unit right?", who,
+                                   least->storage_modulus_pa, most->storage_modulus_pa));
+}
+
+}  // namespace
+
+tl::expected<std::vector<ImportedSpecimen>, ImportFault> import_sweep(const SheetRow& row, const TesterRecord& from,
+                                                                      const std::string& sheet,
+                                                                      std::vector<std::string>& warnings) {
+  if (const auto fault = fault_of_sweep(row, *from.sweep, sheet)) return tl::unexpected(*fault);
+  const ImportedSpecimen common = common_of(row, from);
+  std::vector<ImportedSpecimen> specimens;
+  for (const SweepPoint& point : from.sweep->points) {
+    const auto amplitude = point.amplitude ? point.amplitude : row.strain_amplitude;
+    if (amplitude && kStrainRatePerS.hold(point.angular_frequency_per_s * *amplitude))
+      specimens.push_back(specimen_at(point, *amplitude, common));
+  }
+  if (specimens.empty())
+    return tl::unexpected(
+        ImportFault{row.file, from.line.front(), "",
+                    fmt::format("no row has a strain rate within {} to {} 1/s, the angular frequency times the "
+                                "amplitude: expected other units of frequency or amplitude",
+                                kStrainRatePerS.least, kStrainRatePerS.most)});
+  collect_sweep_doubts(row, *from.sweep, from.sweep->points.size() - specimens.size(), warnings);
+  const std::size_t width = fmt::format("{}", specimens.size()).size();
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    specimens[i].record.specimen += fmt::format("-{:0{}}", i + 1, width);
+  if (specimens.back().record.specimen.size() > kLongestName)
+    return tl::unexpected(ImportFault{sheet, row.line, "specimen",
+                                      fmt::format("the names of a sweep's rows have {} bytes, expected at most {}",
+                                                  specimens.back().record.specimen.size(), kLongestName)});
+  return specimens;
+}
+
+}  // namespace nacre::measurement

@@ -1,0 +1,133 @@
+#include "measurement/sweep_blocks.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "measurement/cell_units.hpp"
+#include "measurement/heading_lines.hpp"
+#include "measurement/sweep_columns.hpp"
+#include "measurement/tester_delimiter.hpp"
+#include "measurement/tester_header.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+class SweepFinder {
+ public:
+  SweepFinder(const std::vector<std::string_view>& lines, char delimiter)
+      : lines_(lines), tables_{.delimiter = delimiter, .blocks = {}} {}
+
+  ExportTables find() {
+    for (std::size_t i = 0; i < lines_.size();) {
+      if (tables_.blocks.empty() && i >= kMostHeaderLines) break;
+      const Heading heading = heading_at(i);
+      i = heading.names.empty() ? i + 1 : read_block(i, heading);
+    }
+    return std::move(tables_);
+  }
+
+ private:
+  struct Heading {
+    std::vector<std::string> names;  ///< empty: the line is no heading
+    std::size_t end = 0;             ///< index of the line below
+  };
+
+  Cells cells_at(std::size_t line) const {
+    Cells cells;
+    if (line < lines_.size()) split_cells(lines_[line], tables_.delimiter, cells);
+    return cells;
+  }
+
+  /// The units in a line, by column; empty where it is no row of units.
+  std::vector<std::string> units_at(std::size_t line) const {
+    const Cells cells = cells_at(line);
+    if (filled(cells) < 2 || !is_unit_row(cells, is_unit_of_sweep)) return {};
+    return {cells.begin(), cells.end()};
+  }
+
+  static bool names_sweep(const std::vector<std::string>& names, const std::vector<std::string>& units) {
+    bool any_frequency = false, any_modulus = false;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto quantity = recognise_sweep_column(names[i], i < units.size() ? units[i] : "").quantity;
+      any_frequency = any_frequency || quantity == SweepQuantity::frequency;
+      any_modulus = any_modulus || quantity == SweepQuantity::storage_modulus;
+    }
+    return any_frequency && any_modulus;
+  }
+
+  /// Whether a line may be one of words: numbers stand below headings.
+  static bool are_words(const Cells& cells) {
+    constexpr std::size_t kMostColumns = 256;
+    return filled(cells) > 1 && cells.size() <= kMostColumns && std::none_of(cells.begin(), cells.end(), is_measured);
+  }
+
+  /// The heading in one line, or in two where neither of them is one.
+  Heading heading_at(std::size_t line) const {
+    if (!has_letter(lines_[line])) return {};
+    const Cells upper = cells_at(line), lower = cells_at(line + 1);
+    if (!are_words(upper)) return {};
+    const std::vector<std::string> names(upper.begin(), upper.end());
+    if (names_sweep(names, units_at(line + 1))) return {names, line + 1};
+    if (!are_words(lower) || names_sweep({lower.begin(), lower.end()}, units_at(line + 2))) return {};
+    const std::vector<std::string> joined = joined_headings(upper, lower);
+    if (names_sweep(joined, units_at(line + 2))) return {joined, line + 2};
+    return {};
+  }
+
+  std::size_t read_block(std::size_t line, const Heading& heading) {
+    TableBlock block;
+    block.heading = block.unit_line = line;
+    std::size_t next = heading.end;
+    while (next < lines_.size() && is_blank(lines_[next])) ++next;
+    std::vector<std::string> units = units_at(next);
+    if (!units.empty()) {
+      block.unit_line = next++;
+    } else if (line > 0) {
+      units = units_at(line - 1);
+      if (!units.empty()) block.unit_line = line - 1;
+    }
+    for (std::size_t i = 0; i < heading.names.size(); ++i)
+      block.columns.push_back(recognise_column(heading.names[i], i < units.size() ? units[i] : ""));
+    for (; next < lines_.size() && heading_at(next).names.empty(); ++next) take_row(block, next);
+    block.begins.push_back(block.cells.size());
+    if (block.has_cell_units) take_units_out(block);
+    tables_.blocks.push_back(std::move(block));
+    return next;
+  }
+
+  /// Titles, results of one word and empty lines are no rows.
+  void take_row(TableBlock& block, std::size_t line) {
+    const Cells cells = cells_at(line);
+    const auto numbers = std::count_if(cells.begin(), cells.end(), is_measured);
+    if (filled(cells) < 2 || (numbers < 2 && cells.size() < block.columns.size())) return;
+    const auto first = std::find_if(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); });
+    if (!is_measured(*first) && is_statistic(plain_words(*first))) {
+      ++block.statistics;
+      return;
+    }
+    if (block.lines.empty()) block.has_cell_units = std::any_of(cells.begin(), cells.end(), number_with_unit);
+    block.lines.push_back(line);
+    block.begins.push_back(block.cells.size());
+    block.cells.insert(block.cells.end(), cells.begin(), cells.end());
+  }
+
+  const std::vector<std::string_view>& lines_;
+  ExportTables tables_;
+};
+
+}  // namespace
+
+ExportTables sweep_tables_of(const std::vector<std::string_view>& lines) {
+  const char certain = delimiter_of(lines);
+  for (const char delimiter : {'\t', ';', ',', '|', kGaps, kBlanks}) {
+    const bool between_blanks = delimiter == kGaps || delimiter == kBlanks;
+    if (!between_blanks && certain != '\0' && delimiter != certain) continue;
+    if (between_blanks && score_of(lines, delimiter) <= 0.0) continue;
+    ExportTables tables = SweepFinder(lines, delimiter).find();
+    if (!tables.blocks.empty()) return tables;
+  }
+  return {};
+}
+
+}  // namespace nacre::measurement

@@ -1,0 +1,15 @@
+#pragma once
+// Second stage of reading a frequency sweep: lines -> tables with a column of frequency and one of storage modulus.
+
+#include <string_view>
+#include <vector>
+
+#include "measurement/tester_blocks.hpp"
+
+namespace nacre::measurement {
+
+/// Finds the tables of a sweep, each with its heading, its units (in the heading, a row below or above, or each cell)
+/// and its rows; rows without numbers are kept, means and deviations are not. No tables: the file is no sweep.
+ExportTables sweep_tables_of(const std::vector<std::string_view>& lines);
+
+}  // namespace nacre::measurement

@@ -1,0 +1,44 @@
+#pragma once
+// The meaning of the columns of a frequency sweep (dynamic mechanical analysis): headings -> quantity and unit.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measurement/tester_columns.hpp"
+
+namespace nacre::measurement {
+
+enum class SweepQuantity { frequency, storage_modulus, amplitude, temperature };
+inline constexpr std::size_t kSweepQuantities = 4;
+std::string_view to_string(SweepQuantity quantity);  ///< `frequency`, `storage_modulus`, `amplitude`, `temperature`
+
+/// From a unit to rad/s, Pa, 1 (strain) or degrees Celsius: factor * value + offset.
+struct SweepUnit {
+  double factor = 1.0, offset = 0.0;
+  double base(double value) const { return factor * value + offset; }
+};
+
+/// A heading of a sweep, taken apart.
+struct SweepColumn {
+  ColumnName name = {};  ///< heading as in the file, name in plain words, unit as written
+  std::optional<SweepQuantity> quantity = {};
+  int rank = 0;             ///< among columns of one quantity the smallest is preferred
+  bool is_angular = false;  ///< a frequency that its name says to be in rad/s
+  bool is_shear = false;    ///< says that the test is in shear, where no modulus is Young's
+};
+
+/// Recognises `Frequency (Hz)`, `f/Hz`, `Angular frequency [rad/s]`, `Storage modulus (MPa)`, `E'`, `Speichermodul`,
+/// `Oscillation strain (%)`, `Temp./°C`. Loss and complex moduli, tan delta, logarithms and static strains are none of
+/// the quantities. `unit`: of a row of its own; may be empty.
+SweepColumn recognise_sweep_column(std::string_view heading, std::string_view unit = {});
+
+/// The unit as a heading writes it; nothing where the column's quantity has no such unit. 1/s is rad/s of an angular
+/// frequency, otherwise Hz.
+std::optional<SweepUnit> unit_of_sweep(const SweepColumn& column, std::string_view unit);
+/// Examples of units, for error messages.
+std::string_view expected_units(SweepQuantity quantity);
+/// Whether it is a unit of a sweep's table, in plain words: also one that no quantity here has.
+bool is_unit_of_sweep(std::string_view unit);
+
+}  // namespace nacre::measurement

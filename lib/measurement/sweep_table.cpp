@@ -1,0 +1,219 @@
+#include "measurement/sweep_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "base/counted.hpp"
+#include "measurement/decimal_marks.hpp"
+#include "measurement/set_files.hpp"
+#include "measurement/tester_delimiter.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+/// Adds the points of one table to a sweep.
+class SweepReader {
+ public:
+  SweepReader(const TableBlock& block, char delimiter, const ColumnChoice& choice, const std::string& file,
+              Sweep& sweep)
+      : block_(block), delimiter_(delimiter), choice_(choice), file_(file), sweep_(sweep), rows_(block.rows()) {
+    std::iota(rows_.begin(), rows_.end(), std::size_t{0});
+    for (const ColumnName& name : block.columns) columns_.push_back(recognise_sweep_column(name.heading, name.unit));
+  }
+
+  std::optional<ImportFault> read() {
+    check_shape();
+    for (const SweepQuantity quantity : {SweepQuantity::frequency, SweepQuantity::storage_modulus,
+                                         SweepQuantity::amplitude, SweepQuantity::temperature})
+      take(quantity);
+    refuse_shear();
+    find_marks();
+    if (!fault_) read_points();
+    return fault_;
+  }
+
+ private:
+  struct Taken {
+    std::size_t place = 0;
+    SweepUnit unit;
+  };
+
+  void reject(std::size_t line, std::string column, std::string reason) {
+    if (!fault_) fault_ = ImportFault{file_, static_cast<int>(line), std::move(column), std::move(reason)};
+  }
+
+  std::optional<Taken>& taken(SweepQuantity quantity) { return taken_[static_cast<std::size_t>(quantity)]; }
+
+  /// A row that was torn at its decimal commas has more cells than the heading; between blanks an empty cell is lost.
+  void check_shape() {
+    const bool between_blanks = delimiter_ == kGaps || delimiter_ == kBlanks;
+    for (const std::size_t row : rows_) {
+      const std::size_t cells = block_.cells_in(row), expected = block_.columns.size();
+      bool is_torn = between_blanks && cells != expected;
+      for (std::size_t i = expected; i < cells; ++i) is_torn = is_torn || is_measured(block_.cell(row, i));
+      if (!is_torn) continue;
+      return reject(block_.lines[row] + 1, "",
+                    fmt::format("has {} cells, expected {} as in the heading: decimal commas in a comma-separated "
+                                "file, or an empty cell between blanks?",
+                                cells, expected));
+    }
+  }
+
+  std::vector<std::size_t> places_of(SweepQuantity quantity) const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].quantity == quantity) places.push_back(i);
+    }
+    std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+      const auto order = [&](std::size_t i) {
+        return std::tuple(!unit_of_sweep(columns_[i], columns_[i].name.unit).has_value(), columns_[i].rank);
+      };
+      return order(a) < order(b);
+    });
+    return places;
+  }
+
+  /// The unit of the heading, else that of the sheet, else rad/s of an angular frequency.
+  std::optional<SweepUnit> find_unit(const SweepColumn& column, TakenColumn& shown) {
+    shown.unit = unit_as_written(column.name.unit);
+    if (const auto unit = unit_of_sweep(column, column.name.unit)) return unit;
+    const std::string quantity = std::string(to_string(*column.quantity)), heading = column.name.heading;
+    for (const std::string& named : units_of_sheet(choice_)) {
+      const auto unit = unit_of_sweep(column, named);
+      if (!unit) continue;
+      shown.unit = named;
+      shown.unit_of_sheet = true;
+      sweep_.decisions.push_back(fmt::format("{}: `{}` in {}, as the sheet says", quantity, heading, named));
+      return unit;
+    }
+    if (!column.is_angular || !column.name.unit.empty() || column.quantity != SweepQuantity::frequency)
+      return std::nullopt;
+    shown.unit = "rad/s";
+    sweep_.decisions.push_back(fmt::format("{}: `{}` in rad/s, as its name says", quantity, heading));
+    return SweepUnit{};
+  }
+
+  static std::string unit_fault(const SweepColumn& column) {
+    const std::string problem = column.name.unit.empty()
+                                    ? std::string("has no unit that is read")
+                                    : fmt::format("`{}` is no unit of it", unit_as_written(column.name.unit));
+    return fmt::format("{}: {}, expected one of {} in the heading, or in the column `unit` of the sheet",
+                       to_string(*column.quantity), problem, expected_units(*column.quantity));
+  }
+
+  void take(SweepQuantity quantity) {
+    const std::vector<std::size_t> places = places_of(quantity);
+    if (places.empty()) return;
+    const SweepColumn& column = columns_[places.front()];
+    TakenColumn shown{.heading = column.name.heading};
+    for (auto other = places.begin() + 1; other != places.end(); ++other)
+      shown.not_taken.push_back(columns_[*other].name.heading);
+    const auto unit = find_unit(column, shown);
+    if (!unit && quantity == SweepQuantity::amplitude) {
+      sweep_.no_amplitude = fmt::format("`{}`: {}", column.name.heading, unit_fault(column));
+      return;
+    }
+    if (!unit) return reject(block_.unit_line + 1, column.name.heading, unit_fault(column));
+    if (!shown.not_taken.empty())
+      sweep_.decisions.push_back(fmt::format("{}: `{}` taken, not `{}`", to_string(quantity), shown.heading,
+                                             fmt::join(shown.not_taken, "`, `")));
+    shown.factor = unit->factor;
+    taken(quantity) = Taken{places.front(), *unit};
+    auto& first = sweep_.taken[static_cast<std::size_t>(quantity)];
+    if (!first) first = std::move(shown);
+  }
+
+  /// A modulus that is not named E' may be one in shear, a third of it.
+  void refuse_shear() {
+    const auto& modulus = taken(SweepQuantity::storage_modulus);
+    if (!modulus) return;
+    const auto sheared = std::find_if(columns_.begin(), columns_.end(), [](const auto& each) { return each.is_shear; });
+    const bool is_symbol = columns_[modulus->place].rank == 0;
+    if (sheared == columns_.end() || is_symbol) return;
+    reject(block_.heading + 1, sheared->name.heading,
+           "says that the test is in shear, where no modulus is Young's, expected E' (tension, compression, bending)");
+  }
+
+  void find_marks() {
+    std::vector<std::size_t> places;
+    for (const auto& each : taken_) {
+      if (each) places.push_back(each->place);
+    }
+    marks_ = decimal_marks(block_, places, rows_, delimiter_);
+    if (!marks_.contradictory.empty()) return reject(marks_.contradiction, "", fault_of_marks(marks_));
+    if (marks_.is_assumed) sweep_.warnings.push_back(doubt_of_marks(marks_, file_));
+    sweep_.decimal_mark = marks_.usual == DecimalMark::comma ? ',' : '.';
+  }
+
+  std::optional<double> value(std::size_t row, SweepQuantity quantity) {
+    const auto& column = taken(quantity);
+    if (!column) return std::nullopt;
+    const auto number = instrument_number(block_.cell(row, column->place), marks_.of(column->place));
+    return number ? std::optional(column->unit.base(*number)) : std::nullopt;
+  }
+
+  void read_points() {
+    std::vector<int> left_out;
+    for (const std::size_t row : rows_) {
+      const int line = static_cast<int>(block_.lines[row]) + 1;
+      const auto frequency = value(row, SweepQuantity::frequency), modulus = value(row, SweepQuantity::storage_modulus),
+                 amplitude = value(row, SweepQuantity::amplitude);
+      const bool lacks_amplitude = taken(SweepQuantity::amplitude) && amplitude.value_or(0.0) <= 0.0;
+      if (frequency.value_or(0.0) <= 0.0 || modulus.value_or(0.0) <= 0.0 || lacks_amplitude) {
+        left_out.push_back(line);
+        continue;
+      }
+      sweep_.points.push_back({line, *frequency, *modulus, amplitude, value(row, SweepQuantity::temperature)});
+    }
+    if (!left_out.empty())
+      sweep_.decisions.push_back(
+          fmt::format("{} left out, the first in line {}: frequency, storage modulus and "
+                      "amplitude are expected as numbers above 0",
+                      counted(static_cast<int>(left_out.size()), "row"), left_out.front()));
+  }
+
+  const TableBlock& block_;
+  char delimiter_;
+  const ColumnChoice& choice_;
+  const std::string& file_;
+  Sweep& sweep_;
+  std::vector<std::size_t> rows_;
+  std::vector<SweepColumn> columns_;
+  std::array<std::optional<Taken>, kSweepQuantities> taken_ = {};
+  DecimalMarks marks_;
+  std::optional<ImportFault> fault_;
+};
+
+}  // namespace
+
+tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const ColumnChoice& choice,
+                                          const std::string& file) {
+  Sweep sweep;
+  std::vector<std::size_t> headings;
+  for (const TableBlock& block : tables.blocks) {
+    if (auto fault = SweepReader(block, tables.delimiter, choice, file, sweep).read()) return tl::unexpected(*fault);
+    headings.push_back(block.heading + 1);
+    if (block.statistics > 0)
+      sweep.decisions.push_back(
+          fmt::format("{} of means and deviations left out", counted(static_cast<int>(block.statistics), "row")));
+  }
+  const int first = headings.empty() ? 0 : static_cast<int>(headings.front());
+  if (sweep.points.empty())
+    return tl::unexpected(ImportFault{file, first, "",
+                                      "no row below the heading has a frequency and a storage modulus "
+                                      "above 0, expected at least one"});
+  if (sweep.points.size() > kMostTableRows)
+    return tl::unexpected(
+        ImportFault{file, first, "", fmt::format("{} rows, expected at most {}", sweep.points.size(), kMostTableRows)});
+  if (headings.size() > 1)
+    sweep.decisions.push_back(fmt::format("{} tables are read as one sweep, with headings in lines {}", headings.size(),
+                                          fmt::join(headings, ", ")));
+  return sweep;
+}
+
+}  // namespace nacre::measurement

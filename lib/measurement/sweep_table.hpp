@@ -1,0 +1,46 @@
+#pragma once
+// Third stage of reading a frequency sweep: tables -> storage modulus by frequency of one piece, and which columns were
+// taken.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "measurement/column_choice.hpp"
+#include "measurement/import_fault.hpp"
+#include "measurement/sweep_columns.hpp"
+#include "measurement/tester_blocks.hpp"
+#include "measurement/tester_series.hpp"
+
+namespace nacre::measurement {
+
+/// One line of the table.
+struct SweepPoint {
+  int line = 0;  ///< of the file, from 1
+  double angular_frequency_per_s = 0.0;
+  double storage_modulus_pa = 0.0;
+  std::optional<double> amplitude;      ///< of the strain; nothing where the table has no such column
+  std::optional<double> temperature_c;  ///< nothing where the table tells none
+};
+
+struct Sweep {
+  std::vector<SweepPoint> points;                                       ///< at least one
+  std::array<std::optional<TakenColumn>, kSweepQuantities> taken = {};  ///< of the first table
+  std::string no_amplitude;            ///< why a column of amplitude was not taken; empty where there is none
+  std::vector<std::string> decisions;  ///< columns, units, rows left out, as sentences
+  std::vector<std::string> warnings;
+  char decimal_mark = '.';
+  const std::optional<TakenColumn>& column(SweepQuantity quantity) const {
+    return taken[static_cast<std::size_t>(quantity)];
+  }
+};
+
+/// Reads the tables of sweep_tables_of() one after the other. Of several columns of a quantity the first with a unit
+/// and the most usual name is taken. Rows without positive numbers are left out. The fault names line and column: no
+/// unit, a test in shear, torn rows, decimal points and commas, no row left.
+tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const ColumnChoice& choice,
+                                          const std::string& file);
+
+}  // namespace nacre::measurement
