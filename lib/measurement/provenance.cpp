@@ -15,7 +15,7 @@
 namespace nacre::measurement {
 namespace {
 
-constexpr std::array<std::string_view, 34> kHeading = {"specimen",
+constexpr std::array<std::string_view, 46> kHeading = {"specimen",
                                                        "test",
                                                        "file",
                                                        "part",
@@ -40,6 +40,18 @@ constexpr std::array<std::string_view, 34> kHeading = {"specimen",
                                                        "stress_column",
                                                        "stress_unit",
                                                        "stress_not_taken",
+                                                       "frequency_column",
+                                                       "frequency_unit",
+                                                       "frequency_not_taken",
+                                                       "storage_modulus_column",
+                                                       "storage_modulus_unit",
+                                                       "storage_modulus_not_taken",
+                                                       "amplitude_column",
+                                                       "amplitude_unit",
+                                                       "amplitude_not_taken",
+                                                       "temperature_column",
+                                                       "temperature_unit",
+                                                       "temperature_not_taken",
                                                        "width_mm",
                                                        "gauge_mm",
                                                        "modulus_pa",
@@ -76,22 +88,27 @@ std::vector<std::string> row_of(const ImportedSpecimen& one) {
   return row;
 }
 
-/// The rows that the set has, as far as their heading is this one.
+/// The rows that the set has, under this heading: cells of a column that theirs lacks are empty.
 std::vector<std::vector<std::string>> known_rows(const std::filesystem::path& file) {
   std::vector<std::vector<std::string>> rows;
   std::error_code unreadable;
   if (!std::filesystem::exists(file, unreadable)) return rows;
   const std::string text = read_file_up_to(file, kMostTableBytes);
   CsvReader reader(text, file.string());
-  CsvRow row;
+  CsvRow heading, row;
+  if (!reader.next(heading)) return rows;
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < heading.cells.size(); ++i) places.emplace(heading.cells[i].text, i);
+  if (!places.contains(std::string(kHeading.front()))) return rows;
   while (reader.next(row)) {
     std::vector<std::string> cells;
-    for (const auto& cell : row.cells) cells.emplace_back(cell.text);
+    for (const std::string_view name : kHeading) {
+      const auto place = places.find(std::string(name));
+      const bool is_there = place != places.end() && place->second < row.cells.size();
+      cells.push_back(is_there ? row.cells[place->second].text : "");
+    }
     rows.push_back(std::move(cells));
   }
-  const bool same = !rows.empty() && rows.front() == std::vector<std::string>(kHeading.begin(), kHeading.end());
-  if (!same) return {};
-  rows.erase(rows.begin());
   return rows;
 }
 
