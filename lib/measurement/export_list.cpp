@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
+#include "measurement/sweep_blocks.hpp"
+#include "measurement/sweep_table.hpp"
 #include "measurement/tester_blocks.hpp"
 #include "measurement/tester_encoding.hpp"
+#include "measurement/tester_export.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_parts.hpp"
 #include "measurement/tester_text.hpp"
@@ -41,18 +45,26 @@ std::vector<std::size_t> rows_of_part(const TableBlock& block, const TesterPart&
   return rows;
 }
 
-ListedColumn listed(const TableBlock& block, std::size_t column, const std::vector<std::size_t>& rows, char delimiter,
-                    const TesterPart& part) {
+/// Heading, unit and range of a column.
+ListedColumn column_of(const TableBlock& block, std::size_t column, const std::vector<std::size_t>& rows,
+                       char delimiter) {
   const ColumnName& name = block.columns[column];
   ListedColumn shown{.heading = name.heading, .unit = unit_as_written(name.unit), .quantity = {}, .sparkline = {}};
-  if (name.quantity) shown.quantity = to_string(*name.quantity);
-  for (const auto& taken : part.series.taken) shown.taken = shown.taken || (taken && taken->heading == name.heading);
   const auto values = numbers_of(block, column, rows, delimiter);
   if (!values || values->empty()) return shown;
   const auto [least, most] = std::minmax_element(values->begin(), values->end());
   shown.least = *least;
   shown.most = *most;
   shown.sparkline = sparkline_of(*values);
+  return shown;
+}
+
+ListedColumn listed(const TableBlock& block, std::size_t column, const std::vector<std::size_t>& rows, char delimiter,
+                    const TesterPart& part) {
+  const ColumnName& name = block.columns[column];
+  ListedColumn shown = column_of(block, column, rows, delimiter);
+  if (name.quantity) shown.quantity = to_string(*name.quantity);
+  for (const auto& taken : part.series.taken) shown.taken = shown.taken || (taken && taken->heading == name.heading);
   return shown;
 }
 
@@ -74,6 +86,50 @@ ListedPart listed(const TesterPart& part, const ExportTables& tables) {
   return shown;
 }
 
+/// The columns of a sweep's table.
+std::vector<ListedColumn> columns_of_sweep(const TableBlock& block, char delimiter,
+                                           const tl::expected<Sweep, ImportFault>& sweep) {
+  std::vector<ListedColumn> columns;
+  std::vector<std::size_t> rows(block.rows());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  for (std::size_t i = 0; i < block.columns.size(); ++i) {
+    const SweepColumn column = recognise_sweep_column(block.columns[i].heading, block.columns[i].unit);
+    if (column.name.heading.empty()) continue;
+    columns.push_back(column_of(block, i, rows, delimiter));
+    columns.back().unit = unit_as_written(column.name.unit);
+    if (!column.quantity) continue;
+    columns.back().quantity = to_string(*column.quantity);
+    const bool is_read = sweep && sweep->column(*column.quantity);
+    columns.back().taken = is_read && sweep->column(*column.quantity)->heading == column.name.heading;
+  }
+  return columns;
+}
+
+ListedExport listed_sweep(const ExportTables& tables, const DecodedText& text, const ColumnChoice& choice,
+                          const std::string& file) {
+  ListedExport shown{.maker = "table",
+                     .encoding = text.encoding,
+                     .delimiter = std::string(delimiter_in_words(tables.delimiter)),
+                     .parts = {},
+                     .notes = {}};
+  const auto sweep = sweep_of(tables, choice, file);
+  const TableBlock& first = tables.blocks.front();
+  ListedPart part{.name = "1",
+                  .line = static_cast<int>(first.heading) + 1,
+                  .rows = 0,
+                  .columns = columns_of_sweep(first, tables.delimiter, sweep),
+                  .decisions = {},
+                  .fault = {}};
+  if (sweep) {
+    part.rows = sweep->points.size();
+    part.decisions = sweep->decisions;
+  } else {
+    part.fault = to_string(sweep.error());
+  }
+  shown.parts.push_back(std::move(part));
+  return shown;
+}
+
 }  // namespace
 
 tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, const std::string& file,
@@ -81,7 +137,9 @@ tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, cons
   const Result<DecodedText> text = decoded(bytes);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
-  const auto tables = tables_of(lines, file, choice);
+  if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
+    return listed_sweep(tables, *text, choice, file);
+  const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   const ExportParts parts = parts_of(*tables, choice, file);
   ListedExport shown{.maker = maker_of(lines, tables->delimiter),

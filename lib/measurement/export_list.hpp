@@ -13,7 +13,7 @@ namespace nacre::measurement {
 
 struct ListedColumn {
   std::string heading, unit;  ///< unit: empty where none is read
-  std::string quantity;       ///< `time`, `extension`, `force`, `strain`, `stress`; empty for others
+  std::string quantity;       ///< `time`, `extension`, `force`, `strain`, `stress`, or of a sweep; empty for others
   bool taken = false;         ///< without a choice in the sheet
   double least = 0.0, most = 0.0;
   std::string sparkline;  ///< empty where the cells are no numbers

@@ -116,18 +116,42 @@ class SweepFinder {
   ExportTables tables_;
 };
 
+/// Those that may be tried.
+std::vector<char> delimiters_of(const std::vector<std::string_view>& lines) {
+  const char certain = delimiter_of(lines);
+  std::vector<char> delimiters = {certain};
+  if (certain == '\0') delimiters = {'\t', ';', ',', '|'};
+  for (const char blanks : {kGaps, kBlanks}) {
+    if (score_of(lines, blanks) > 0.0) delimiters.push_back(blanks);
+  }
+  return delimiters;
+}
+
 }  // namespace
 
 ExportTables sweep_tables_of(const std::vector<std::string_view>& lines) {
-  const char certain = delimiter_of(lines);
-  for (const char delimiter : {'\t', ';', ',', '|', kGaps, kBlanks}) {
-    const bool between_blanks = delimiter == kGaps || delimiter == kBlanks;
-    if (!between_blanks && certain != '\0' && delimiter != certain) continue;
-    if (between_blanks && score_of(lines, delimiter) <= 0.0) continue;
+  for (const char delimiter : delimiters_of(lines)) {
     ExportTables tables = SweepFinder(lines, delimiter).find();
     if (!tables.blocks.empty()) return tables;
   }
   return {};
+}
+
+std::optional<ImportFault> fault_of_no_frequency(const std::vector<std::string_view>& lines, const std::string& file) {
+  Cells cells;
+  for (const char delimiter : delimiters_of(lines)) {
+    for (std::size_t i = 0; i < std::min(lines.size(), kMostHeaderLines); ++i) {
+      split_cells(lines[i], delimiter, cells);
+      const auto modulus = std::find_if(cells.begin(), cells.end(), [](std::string_view cell) {
+        return has_letter(cell) && recognise_sweep_column(cell).quantity == SweepQuantity::storage_modulus;
+      });
+      if (filled(cells) < 2 || modulus == cells.end()) continue;
+      return ImportFault{file, static_cast<int>(i) + 1, std::string(*modulus),
+                         "a storage modulus, but no column of frequency is with it, expected one such as `Frequency "
+                         "(Hz)` or `Angular frequency (rad/s)`"};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace nacre::measurement

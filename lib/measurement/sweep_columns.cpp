@@ -163,9 +163,10 @@ ColumnName with_unit_of(const ColumnName& name, std::span<const NamedUnit> units
     for (const std::string_view in : {" in", " en"}) {
       if (before.ends_with(in)) before.remove_suffix(in.size());
     }
+    const std::string_view tail = std::string_view(name.heading).substr(name.heading.size() - each.unit.size());
     ColumnName apart = name;
     apart.name = before;
-    apart.unit = each.unit;
+    apart.unit = plain_words(tail) == each.unit ? tail : each.unit;  // as written where no letter was spelt out
     return apart;
   }
   return name;

@@ -60,6 +60,14 @@ bool may_be_sweep(const ColumnChoice& choice) {
   return choice.extension.empty() && choice.force.empty() && choice.strain.empty() && choice.stress.empty();
 }
 
+tl::expected<ExportTables, ImportFault> curve_tables_of(const std::vector<std::string_view>& lines,
+                                                        const std::string& file, const ColumnChoice& choice) {
+  auto tables = tables_of(lines, file, choice);
+  if (tables || !may_be_sweep(choice)) return tables;
+  if (const auto fault = fault_of_no_frequency(lines, file)) return tl::unexpected(*fault);
+  return tables;
+}
+
 std::string to_string(const ImportFault& fault) {
   std::string place = fault.file;
   if (fault.line > 0) place += fmt::format(":{}", fault.line);
@@ -75,7 +83,7 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
   const std::vector<std::string_view> lines = export_lines(text->text);
   if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
     return sweep_record(tables, *text, lines, choice, file);
-  const auto tables = tables_of(lines, file, choice);
+  const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   ExportParts found = parts_of(*tables, choice, file);
   if (found.parts.empty())

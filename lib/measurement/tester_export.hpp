@@ -49,6 +49,10 @@ struct TesterRecord {
 /// Whether a file with a sweep's columns is one: the sheet names no columns of a test.
 bool may_be_sweep(const ColumnChoice& choice);
 
+/// The tables of extension and force, or why there are none: tables_of(), and a storage modulus without frequency.
+tl::expected<ExportTables, ImportFault> curve_tables_of(const std::vector<std::string_view>& lines,
+                                                        const std::string& file, const ColumnChoice& choice);
+
 /// Reads all tests of an export. `bytes` as on disk, `file` for messages. Errors name line, column and what was
 /// expected; of a file with several parts, the fault of one stays with it.
 tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::string_view bytes, const std::string& file,

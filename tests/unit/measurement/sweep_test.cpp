@@ -240,6 +240,11 @@ TEST_F(Sweeps, AModulusNeedsAUnit) {
   expect_refused(import(sweep_table("Temp,Frequency (Hz),E' (MPa),Strain (%)\n", "25,{0},{3},0.1\n")), "Temp", 1, "K");
 }
 
+TEST_F(Sweeps, AStorageModulusWithoutFrequencyIsNamed) {
+  expect_refused(import(sweep_table("Temp (°C),E'' (MPa),E' (MPa)\n", "25,{4},{3}\n")), "E' (MPa)", 1,
+                 "Frequency (Hz)");
+}
+
 TEST_F(Sweeps, AModulusInShearIsRefused) {
   expect_refused(import(sweep_table("Frequency (Hz),Storage modulus (MPa),Shear strain (%)\n", "{0},{3},0.1\n")),
                  "Shear strain (%)", 1, "shear");
@@ -319,6 +324,24 @@ TEST_F(Sweeps, ProvenanceTellsColumnsAndUnits) {
   EXPECT_EQ(cells["storage_modulus_unit"], "MPa");
   EXPECT_EQ(cells["amplitude_unit"], "%");
   EXPECT_EQ(cells["temperature_unit"], "K");
+}
+
+TEST_F(Sweeps, TheListNamesTheColumnsThatAreTaken) {
+  ColumnChoice choice;
+  choice.unit = "C";
+  const auto held =
+      list_export(sweep_table("Temp,Frequency / Hz,Tan(delta),E' (MPa)\n", "a,{0},{5},{3}\n"), "a.csv", choice);
+  ASSERT_TRUE(held) << held.error().reason;
+  ASSERT_EQ(held->parts.size(), 1U);
+  EXPECT_EQ(held->parts[0].rows, 3U);
+  EXPECT_TRUE(held->parts[0].fault.empty()) << held->parts[0].fault;
+  ASSERT_EQ(held->parts[0].columns.size(), 4U);
+  EXPECT_EQ(held->parts[0].columns[1].quantity, "frequency");
+  EXPECT_EQ(held->parts[0].columns[1].unit, "Hz");
+  EXPECT_EQ(held->parts[0].columns[2].quantity, "");
+  EXPECT_EQ(held->parts[0].columns[3].quantity, "storage_modulus");
+  EXPECT_TRUE(held->parts[0].columns[3].taken);
+  EXPECT_DOUBLE_EQ(held->parts[0].columns[3].most, 1440.0);
 }
 
 TEST_F(Sweeps, ANameThatTheSheetHasIsRefused) {
