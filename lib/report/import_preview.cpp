@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
+#include "measurement/piece.hpp"
 #include "report/page_style.hpp"
 #include "report/svg.hpp"
 
@@ -74,7 +76,8 @@ std::string cell_of(const measurement::ImportedSpecimen& one, const std::string&
 
 std::string columns_of(const measurement::ImportedSpecimen& one) {
   std::string rows;
-  for (const char* quantity : {"time", "extension", "force", "strain", "stress"}) {
+  for (const char* quantity :
+       {"time", "extension", "force", "strain", "stress", "frequency", "storage_modulus", "amplitude", "temperature"}) {
     const std::string heading = cell_of(one, std::string(quantity) + "_column");
     if (heading.empty()) continue;
     const std::string others = cell_of(one, std::string(quantity) + "_not_taken");
@@ -82,6 +85,35 @@ std::string columns_of(const measurement::ImportedSpecimen& one) {
                                       others.empty() ? "" : "; not taken: " + others));
   }
   return rows;
+}
+
+std::string decisions_of(const measurement::ImportedSpecimen& one) {
+  std::string items;
+  for (const std::string& each : one.decisions) items += fmt::format("<li>{}</li>", escaped(each));
+  return items;
+}
+
+/// The rows of a frequency sweep, which have no curves.
+std::string sweep_article_of(std::span<const measurement::ImportedSpecimen> sweep) {
+  const measurement::ImportedSpecimen& first = sweep.front();
+  std::string points =
+      "<tr><th>specimen</th><th>E, MPa</th><th>strain rate, 1/s</th><th>temperature, °C</th><th>note</th></tr>";
+  for (const auto& one : sweep) {
+    const auto temperature = one.record.other_columns.find("temperature_c");
+    points += fmt::format(
+        "<tr><td>{}</td><td>{:.4g}</td><td>{:.3g}</td><td>{}</td><td>{}</td></tr>", escaped(one.record.specimen),
+        1e-6 * one.test.modulus_pa, one.record.conditions.strain_rate_per_s,
+        temperature == one.record.other_columns.end() ? "" : escaped(temperature->second), escaped(one.record.note));
+  }
+  std::string rows =
+      row("file", fmt::format("{}, lines {} to {}, {}, {}", first.file, cell_of(first, "first_line"),
+                              cell_of(sweep.back(), "last_line"), first.maker, cell_of(first, "encoding")));
+  rows += row("thickness", fmt::format("{} mm", first.record.conditions.thickness_mm)) + columns_of(first);
+  return fmt::format(
+      "<article><div><h2>{}</h2><p>{}, sweep{}</p><table>{}</table><ul>{}</ul></div><div><table>{}</table></div>"
+      "</article>\n",
+      escaped(measurement::piece_of(first.record)), escaped(first.record.design.name()),
+      first.record.valid ? "" : ", <b class=\"warning\">not valid</b>", rows, decisions_of(first), points);
 }
 
 std::string article_of(const measurement::ImportedSpecimen& one) {
@@ -102,13 +134,11 @@ std::string article_of(const measurement::ImportedSpecimen& one) {
   rows += row("size", fmt::format("{} x {} mm, gauge {} mm", cell_of(one, "width_mm"),
                                   one.record.conditions.thickness_mm, one.gauge_mm));
   rows += columns_of(one);
-  std::string decisions;
-  for (const std::string& each : one.decisions) decisions += fmt::format("<li>{}</li>", escaped(each));
   return fmt::format(
       "<article><div>{}</div><div><h2>{}</h2><p>{}, {}{}</p><table>{}</table><ul>{}</ul></div></article>\n",
       figure_of(test), escaped(one.record.specimen), escaped(one.record.design.name()),
       tester::to_string(one.record.test), one.record.valid ? "" : ", <b class=\"warning\">not valid</b>", rows,
-      decisions);
+      decisions_of(one));
 }
 
 }  // namespace
@@ -122,7 +152,14 @@ std::string import_preview(const measurement::Import& import, const std::string&
     list += fmt::format("<li><b>refused</b> {}</li>", escaped(to_string(fault)));
   for (const std::string& warning : import.warnings) list += fmt::format("<li>{}</li>", escaped(warning));
   if (!list.empty()) body += fmt::format("<ul class=\"warning\">{}</ul>\n", list);
-  for (const auto& one : import.specimens) body += article_of(one);
+  for (std::span rest(import.specimens); !rest.empty();) {
+    const auto end = std::find_if(rest.begin(), rest.end(), [&](const auto& each) {
+      return each.line != rest.front().line || !each.test.curve.empty();
+    });
+    const std::size_t points = static_cast<std::size_t>(end - rest.begin());
+    body += points > 0 ? sweep_article_of(rest.first(points)) : article_of(rest.front());
+    rest = rest.subspan(std::max<std::size_t>(points, 1));
+  }
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Import of {}</title>"
       "<style>{}{}{}{}</style></head>\n<body>{}</body></html>\n",

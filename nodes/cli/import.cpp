@@ -34,6 +34,11 @@ struct ImportOptions {
   bool json = false;
 };
 
+/// A value that comes from the curve: null where the specimen has none.
+nlohmann::ordered_json of_curve(const measurement::ImportedSpecimen& one, double value) {
+  return one.test.curve.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+}
+
 nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
   const measurement::SpecimenRecord& record = one.record;
   return {{"specimen", record.specimen},
@@ -42,11 +47,11 @@ nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
           {"pattern", record.design.name()},
           {"test", std::string(tester::to_string(record.test))},
           {"modulus_pa", one.test.modulus_pa},
-          {"modulus_error_pa", one.test.modulus_error_pa},
-          {"toughness_pa", one.test.toughness_pa},
-          {"peak_stress_pa", one.test.peak_stress_pa},
-          {"failure_strain", one.test.failure_strain},
-          {"toe_strain", one.test.toe_strain},
+          {"modulus_error_pa", of_curve(one, one.test.modulus_error_pa)},
+          {"toughness_pa", of_curve(one, one.test.toughness_pa)},
+          {"peak_stress_pa", of_curve(one, one.test.peak_stress_pa)},
+          {"failure_strain", of_curve(one, one.test.failure_strain)},
+          {"toe_strain", of_curve(one, one.test.toe_strain)},
           {"extension_column", one.extension_column},
           {"columns", one.provenance},
           {"decisions", one.decisions},
@@ -65,14 +70,26 @@ nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
   return document;
 }
 
+void print_specimen(const measurement::ImportedSpecimen& one) {
+  const std::string validity = one.record.valid ? "" : "  NOT VALID";
+  if (one.test.curve.empty()) {
+    fmt::print("{:16} {:20} E {:>9} GPa  at {:.4g} 1/s: {}{}\n", one.record.specimen, one.maker,
+               shown(1e-9 * one.test.modulus_pa), one.record.conditions.strain_rate_per_s, one.record.note, validity);
+    return;
+  }
+  fmt::print("{:16} {:20} E {:>9} GPa  T {:>8} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
+             one.record.specimen, one.maker, shown(1e-9 * one.test.modulus_pa), shown(1e-6 * one.test.toughness_pa),
+             1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain, validity);
+}
+
 /// `set`: the folder that keeps the specimens; empty where none does.
 void print_import(const measurement::Import& import, const ImportOptions& options, const std::string& set) {
   if (!options.json) {
-    for (const auto& one : import.specimens) {
-      fmt::print("{:16} {:20} E {:>9} GPa  T {:>8} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
-                 one.record.specimen, one.maker, shown(1e-9 * one.test.modulus_pa), shown(1e-6 * one.test.toughness_pa),
-                 1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
-                 one.record.valid ? "" : "  NOT VALID");
+    for (std::size_t i = 0; i < import.specimens.size(); ++i) {
+      const auto& one = import.specimens[i];
+      print_specimen(one);
+      const bool goes_on = i + 1 < import.specimens.size() && import.specimens[i + 1].line == one.line;  // a sweep
+      if (goes_on) continue;
       for (const std::string& decision : one.decisions) fmt::print("    {}\n", decision);
     }
     fmt::print("{}{}{}, {} rejected: {}\n", counted(import.specimens.size(), "specimen"),
@@ -95,7 +112,7 @@ void print_import(const measurement::Import& import, const ImportOptions& option
 void print_part(const measurement::ListedPart& part) {
   fmt::print("  part {}: {} rows below line {}\n", part.name, part.rows, part.line);
   for (const auto& column : part.columns) {
-    fmt::print("    {} {:9} {:32} {:8} {:>12} {:>12}  {}\n", column.taken ? '*' : ' ', column.quantity, column.heading,
+    fmt::print("    {} {:15} {:32} {:8} {:>12} {:>12}  {}\n", column.taken ? '*' : ' ', column.quantity, column.heading,
                column.unit, column.sparkline.empty() ? "" : fmt::format("{:.5g}", column.least),
                column.sparkline.empty() ? "" : fmt::format("{:.5g}", column.most), column.sparkline);
   }
@@ -211,7 +228,7 @@ void add_import(CLI::App& app, Action& action) {
                                   options, import_exports);
   command.add_option(
       "TESTER.csv", options->files,
-      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, in its folder");
+      "Exports (Bluehill, testXpert, MTS, sweeps, plain tables); default: those that the sheet names, in its folder");
   command
       .add_option("--specimens", options->sheet,
                   "Specimen sheet: which file is which specimen, and its width and thickness")
