@@ -85,6 +85,12 @@ constexpr std::string_view kTemperatures[] = {
 };
 constexpr std::string_view kOvens[] = {"furnace", "oven", "ofen", "ofentemperatur", "chamber", "four", "forno"};
 
+constexpr std::string_view kSamples[] = {
+    "specimen",   "specimen id",  "specimen name", "sample",     "sample id",   "sample name", "probe",
+    "probenname", "probekoerper", "pruefkoerper",  "eprouvette", "echantillon", "probeta",     "muestra",
+    "provino",    "campione",     "試料",          "試験片",     "试样",        "試樣",
+};
+
 bool holds_one(std::span<const std::string_view> words, const std::string& name) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return holds_word(name, word); });
 }
@@ -251,6 +257,7 @@ SweepColumn recognise_sweep_column(std::string_view heading, std::string_view un
   SweepColumn column{.name = recognise_column(with_plain_primes(heading), unit)};
   const ColumnName as_read = column.name;
   column.is_shear = holds_one(kShear, column.name.name);
+  column.is_sample = std::find(std::begin(kSamples), std::end(kSamples), column.name.name) != std::end(kSamples);
   constexpr std::array<std::pair<SweepQuantity, bool (*)(SweepColumn&)>, kSweepQuantities> kRules = {
       {{SweepQuantity::storage_modulus, names_storage_modulus},
        {SweepQuantity::frequency, names_frequency},

@@ -25,6 +25,7 @@ struct SweepColumn {
   std::optional<SweepQuantity> quantity = {};
   int rank = 0;             ///< among columns of one quantity the smallest is preferred
   bool is_angular = false;  ///< a frequency that its name says to be in rad/s
+  bool is_sample = false;   ///< tells which piece a row belongs to; a number of rows or runs does not
   bool is_shear = false;    ///< says that the test is in shear, where no modulus is Young's
 };
 

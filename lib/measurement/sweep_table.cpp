@@ -157,6 +157,12 @@ class SweepReader {
     return number ? std::optional(column->unit.base(*number)) : std::nullopt;
   }
 
+  std::string sample_of(std::size_t row) const {
+    const auto named = std::find_if(columns_.begin(), columns_.end(), [](const auto& each) { return each.is_sample; });
+    const auto place = static_cast<std::size_t>(named - columns_.begin());
+    return named == columns_.end() ? "" : std::string(block_.cell(row, place));
+  }
+
   void read_points() {
     std::vector<int> left_out;
     for (const std::size_t row : rows_) {
@@ -168,7 +174,8 @@ class SweepReader {
         left_out.push_back(line);
         continue;
       }
-      sweep_.points.push_back({line, *frequency, *modulus, amplitude, value(row, SweepQuantity::temperature)});
+      sweep_.points.push_back(
+          {line, sample_of(row), *frequency, *modulus, amplitude, value(row, SweepQuantity::temperature)});
     }
     if (!left_out.empty())
       sweep_.decisions.push_back(

@@ -18,7 +18,8 @@ namespace nacre::measurement {
 
 /// One line of the table.
 struct SweepPoint {
-  int line = 0;  ///< of the file, from 1
+  int line = 0;        ///< of the file, from 1
+  std::string sample;  ///< as a column of the table names it; empty where there is none
   double angular_frequency_per_s = 0.0;
   double storage_modulus_pa = 0.0;
   std::optional<double> amplitude;      ///< of the strain; nothing where the table has no such column

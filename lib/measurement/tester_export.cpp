@@ -35,23 +35,39 @@ TesterRecord record_of(TesterPart part, const ExportTables& tables) {
   return record;
 }
 
-tl::expected<std::vector<TesterRecord>, ImportFault> sweep_record(const ExportTables& tables, const DecodedText& text,
-                                                                  const std::vector<std::string_view>& lines,
-                                                                  const ColumnChoice& choice, const std::string& file) {
+/// A record of each piece, in the order in which they begin; `common` has a sweep without points.
+std::vector<TesterRecord> records_of_pieces(const std::vector<SweepPoint>& points, const TesterRecord& common) {
+  std::vector<TesterRecord> records;
+  std::map<std::string, std::size_t> places;
+  for (const SweepPoint& point : points) {
+    const auto [place, is_new] = places.try_emplace(point.sample, records.size());
+    if (is_new) {
+      records.push_back(common);
+      records.back().part = point.sample.empty() ? "1" : point.sample;
+    }
+    records[place->second].line.push_back(point.line);
+    records[place->second].sweep->points.push_back(point);
+  }
+  return records;
+}
+
+tl::expected<std::vector<TesterRecord>, ImportFault> sweep_records(const ExportTables& tables, const DecodedText& text,
+                                                                   const std::vector<std::string_view>& lines,
+                                                                   const ColumnChoice& choice,
+                                                                   const std::string& file) {
   auto sweep = sweep_of(tables, choice, file);
   if (!sweep) return tl::unexpected(sweep.error());
-  TesterRecord record;
-  record.maker = "table";
-  record.encoding = text.encoding;
-  record.delimiter = tables.delimiter;
-  record.decimal_mark = sweep->decimal_mark;
-  record.part = "1";
-  record.header = header_of(std::span(lines).first(tables.blocks.front().heading), tables.delimiter);
-  record.decisions = sweep->decisions;
-  record.warnings = sweep->warnings;
-  for (const SweepPoint& point : sweep->points) record.line.push_back(point.line);
-  record.sweep = std::move(*sweep);
-  return std::vector{std::move(record)};
+  const std::vector<SweepPoint> points = std::exchange(sweep->points, {});
+  TesterRecord common;
+  common.maker = "table";
+  common.encoding = text.encoding;
+  common.delimiter = tables.delimiter;
+  common.decimal_mark = sweep->decimal_mark;
+  common.header = header_of(std::span(lines).first(tables.blocks.front().heading), tables.delimiter);
+  common.decisions = sweep->decisions;
+  common.warnings = sweep->warnings;
+  common.sweep = std::move(*sweep);
+  return records_of_pieces(points, common);
 }
 
 }  // namespace
@@ -82,7 +98,7 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
   if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
-    return sweep_record(tables, *text, lines, choice, file);
+    return sweep_records(tables, *text, lines, choice, file);
   const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   ExportParts found = parts_of(*tables, choice, file);

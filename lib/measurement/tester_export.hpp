@@ -2,7 +2,7 @@
 // Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), Shimadzu
 // Trapezium, and plain tables of time, extension and force. They are read by the names of their columns, not by maker,
 // in stages: decoded() -> tables_of() -> parts_of() -> a record of each part. Tables of a frequency sweep go another
-// way: decoded() -> sweep_tables_of() -> sweep_of() -> one record.
+// way: decoded() -> sweep_tables_of() -> sweep_of() -> a record of each piece.
 
 #include <map>
 #include <string>

@@ -202,6 +202,18 @@ TEST_F(Sweeps, StepsWithHeadingsOfTheirOwnAreOnePiece) {
   EXPECT_EQ(piece_of(import.specimens.back().record), "s");
 }
 
+TEST_F(Sweeps, SamplesOfOneTableAreParts) {
+  std::string text = "No,Sample,Frequency (Hz),E' (MPa),Strain (%)\n";
+  for (const int i : {1, 2, 3})
+    for (const char* sample : {"A", "B"})
+      text += fmt::format("{},{},{},{}00,0.1\n", i, sample, i, *sample == 'A' ? 1 : 2);
+  expect_refused(import(text), "part", 2, "A, B");
+  const Import chosen = import(text, ",part", ",b");
+  ASSERT_EQ(chosen.specimens.size(), 3U) << all_of(chosen);
+  EXPECT_EQ(chosen.specimens[0].record.modulus_pa, 2e8);
+  EXPECT_EQ(chosen.specimens[0].provenance.at("part"), "B");
+}
+
 TEST_F(Sweeps, WithoutAnAmplitudeTheSheetIsAskedForIt) {
   const std::string text = sweep_table("Frequency (Hz),Storage modulus (MPa)\n", "{0},{3}\n");
   expect_refused(import(text), "strain_amplitude", 2, "`a.csv`");
