@@ -47,6 +47,12 @@ class SweepReader {
     if (!fault_) fault_ = ImportFault{file_, static_cast<int>(line), std::move(column), std::move(reason)};
   }
 
+  /// Tables of one file decide alike: once is enough.
+  void say(std::string decision) {
+    std::vector<std::string>& said = sweep_.decisions;
+    if (std::find(said.begin(), said.end(), decision) == said.end()) said.push_back(std::move(decision));
+  }
+
   std::optional<Taken>& taken(SweepQuantity quantity) { return taken_[static_cast<std::size_t>(quantity)]; }
 
   /// A row that was torn at its decimal commas has more cells than the heading; between blanks an empty cell is lost.
@@ -88,13 +94,13 @@ class SweepReader {
       if (!unit) continue;
       shown.unit = named;
       shown.unit_of_sheet = true;
-      sweep_.decisions.push_back(fmt::format("{}: `{}` in {}, as the sheet says", quantity, heading, named));
+      say(fmt::format("{}: `{}` in {}, as the sheet says", quantity, heading, named));
       return unit;
     }
     if (!column.is_angular || !column.name.unit.empty() || column.quantity != SweepQuantity::frequency)
       return std::nullopt;
     shown.unit = "rad/s";
-    sweep_.decisions.push_back(fmt::format("{}: `{}` in rad/s, as its name says", quantity, heading));
+    say(fmt::format("{}: `{}` in rad/s, as its name says", quantity, heading));
     return SweepUnit{};
   }
 
@@ -120,8 +126,8 @@ class SweepReader {
     }
     if (!unit) return reject(block_.unit_line + 1, column.name.heading, unit_fault(column));
     if (!shown.not_taken.empty())
-      sweep_.decisions.push_back(fmt::format("{}: `{}` taken, not `{}`", to_string(quantity), shown.heading,
-                                             fmt::join(shown.not_taken, "`, `")));
+      say(fmt::format("{}: `{}` taken, not `{}`", to_string(quantity), shown.heading,
+                      fmt::join(shown.not_taken, "`, `")));
     shown.factor = unit->factor;
     taken(quantity) = Taken{places.front(), *unit};
     auto& first = sweep_.taken[static_cast<std::size_t>(quantity)];
@@ -178,7 +184,7 @@ class SweepReader {
           {line, sample_of(row), *frequency, *modulus, amplitude, value(row, SweepQuantity::temperature)});
     }
     if (!left_out.empty())
-      sweep_.decisions.push_back(
+      say(
           fmt::format("{} left out, the first in line {}: frequency, storage modulus and "
                       "amplitude are expected as numbers above 0",
                       counted(static_cast<int>(left_out.size()), "row"), left_out.front()));
