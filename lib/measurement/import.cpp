@@ -15,13 +15,13 @@
 #include "measurement/limits.hpp"
 #include "measurement/loading_part.hpp"
 #include "measurement/plausibility.hpp"
+#include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/sheet_exports.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "measurement/strain_rate.hpp"
-#include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::measurement {
@@ -86,23 +86,10 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
 
 /// Which file, part, columns and units the numbers came from.
 std::map<std::string, std::string> provenance_of(const TesterRecord& from, const SheetRow& row) {
-  std::map<std::string, std::string> cells = {{"part", from.part},
-                                              {"maker", from.maker},
-                                              {"encoding", from.encoding},
-                                              {"delimiter", std::string(delimiter_in_words(from.delimiter))},
-                                              {"decimal_mark", std::string(1, from.decimal_mark)},
-                                              {"first_line", fmt::format("{}", from.line.front())},
-                                              {"last_line", fmt::format("{}", from.line.back())},
-                                              {"width_mm", fmt::format("{}", row.width_mm)},
-                                              {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
+  std::map<std::string, std::string> cells = provenance_of_file(from, row);
   for (const Quantity quantity :
-       {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress}) {
-    const auto& column = from.column(quantity);
-    if (!column) continue;
-    cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
-    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit.empty() ? "none" : unit_as_written(column->unit);
-    cells[fmt::format("{}_not_taken", to_string(quantity))] = fmt::format("{}", fmt::join(column->not_taken, "; "));
-  }
+       {Quantity::time, Quantity::extension, Quantity::force, Quantity::strain, Quantity::stress})
+    add_provenance(to_string(quantity), from.column(quantity), cells);
   return cells;
 }
 

@@ -1,7 +1,6 @@
 #include "measurement/import_sweep.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>
@@ -10,8 +9,8 @@
 #include "base/counted.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/piece.hpp"
+#include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
-#include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -44,21 +43,10 @@ std::optional<ImportFault> fault_of_sweep(const SheetRow& row, const Sweep& swee
 
 /// Which columns and units the numbers came from.
 std::map<std::string, std::string> provenance_of_sweep(const TesterRecord& from, const SheetRow& row) {
-  std::map<std::string, std::string> cells = {{"part", from.part},
-                                              {"maker", from.maker},
-                                              {"encoding", from.encoding},
-                                              {"delimiter", std::string(delimiter_in_words(from.delimiter))},
-                                              {"decimal_mark", std::string(1, from.decimal_mark)},
-                                              {"width_mm", fmt::format("{}", row.width_mm)},
-                                              {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
-  for (const SweepQuantity quantity : {SweepQuantity::frequency, SweepQuantity::storage_modulus,
-                                       SweepQuantity::amplitude, SweepQuantity::temperature}) {
-    const auto& column = from.sweep->column(quantity);
-    if (!column) continue;
-    cells[fmt::format("{}_column", to_string(quantity))] = column->heading;
-    cells[fmt::format("{}_unit", to_string(quantity))] = column->unit;
-    cells[fmt::format("{}_not_taken", to_string(quantity))] = fmt::format("{}", fmt::join(column->not_taken, "; "));
-  }
+  std::map<std::string, std::string> cells = provenance_of_file(from, row);
+  for (const SweepQuantity quantity :
+       {SweepQuantity::frequency, SweepQuantity::storage_modulus, SweepQuantity::amplitude, SweepQuantity::temperature})
+    add_provenance(to_string(quantity), from.sweep->column(quantity), cells);
   return cells;
 }
 

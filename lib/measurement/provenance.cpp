@@ -11,6 +11,7 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -113,6 +114,26 @@ std::vector<std::vector<std::string>> known_rows(const std::filesystem::path& fi
 }
 
 }  // namespace
+
+std::map<std::string, std::string> provenance_of_file(const TesterRecord& from, const SheetRow& row) {
+  return {{"part", from.part},
+          {"maker", from.maker},
+          {"encoding", from.encoding},
+          {"delimiter", std::string(delimiter_in_words(from.delimiter))},
+          {"decimal_mark", std::string(1, from.decimal_mark)},
+          {"first_line", fmt::format("{}", from.line.front())},
+          {"last_line", fmt::format("{}", from.line.back())},
+          {"width_mm", fmt::format("{}", row.width_mm)},
+          {"gauge_mm", fmt::format("{}", row.gauge_mm)}};
+}
+
+void add_provenance(std::string_view quantity, const std::optional<TakenColumn>& column,
+                    std::map<std::string, std::string>& cells) {
+  if (!column) return;
+  cells[fmt::format("{}_column", quantity)] = column->heading;
+  cells[fmt::format("{}_unit", quantity)] = column->unit.empty() ? "none" : unit_as_written(column->unit);
+  cells[fmt::format("{}_not_taken", quantity)] = fmt::format("{}", fmt::join(column->not_taken, "; "));
+}
 
 void write_provenance(const std::filesystem::path& folder, std::span<const ImportedSpecimen> specimens) {
   std::vector<std::vector<std::string>> rows = known_rows(folder / kProvenanceName);

@@ -115,6 +115,7 @@ constexpr NamedUnit kTemperatureUnits[] = {
     {"deg. c", {}},
     {"grad c", {}},
     {"celsius", {}},
+    {"℃", {}},
     {"k", {1.0, -kZeroCelsius}},
     {"kelvin", {1.0, -kZeroCelsius}},
     {"f", {kFahrenheit, -32.0 * kFahrenheit}},

@@ -181,6 +181,16 @@ TEST_F(Sweeps, KelvinBecomesDegreesCelsius) {
   }
 }
 
+TEST_F(Sweeps, ChineseAndJapaneseHeadingsAreRead) {
+  for (const char* names : {"频率 (Hz),储能模量 (MPa),损耗模量 (MPa),应变 (%),温度 (℃)",
+                            "周波数 [Hz],貯蔵弾性率 E' [MPa],損失弾性率 E'' [MPa],ひずみ [%],温度 [℃]"}) {
+    SCOPED_TRACE(names);
+    const Import import = this->import(sweep_table(fmt::format("{}\n", names), "{0},{3},{4},0.1,25\n"));
+    expect_usual(import);
+    EXPECT_THAT(temperatures_of(import), ElementsAre("25", "25", "25"));
+  }
+}
+
 TEST_F(Sweeps, EveryTemperatureHasItsRows) {
   std::string text = "Frequency (Hz),Temperature (°C),Storage modulus (MPa),Strain (%)\n";
   for (const double temperature : {20.0, 40.5, 60.0})
