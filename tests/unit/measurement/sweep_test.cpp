@@ -348,6 +348,16 @@ TEST_F(Sweeps, ProvenanceTellsColumnsAndUnits) {
   EXPECT_EQ(cells["temperature_unit"], "K");
 }
 
+TEST_F(Sweeps, ProvenanceUnderAnEarlierHeadingIsKept) {
+  Import import = this->import(sweep_table("Frequency (Hz),E' (MPa),Strain (%)\n", "{0},{3},0.1\n"));
+  fs::create_directories(folder_ / "set");
+  std::ofstream(folder_ / "set/provenance.csv") << "specimen,test,file\nold,toughness,b.csv\n";
+  write_import(folder_ / "set", "sheet.csv", import);
+  const std::string text = read_file_up_to(folder_ / "set/provenance.csv", 1 << 20);
+  EXPECT_THAT(text, HasSubstr("\nold,toughness,b.csv,,"));
+  EXPECT_THAT(text, HasSubstr("\ns-1,modulus,a.csv,1,"));
+}
+
 TEST_F(Sweeps, TheListNamesTheColumnsThatAreTaken) {
   ColumnChoice choice;
   choice.unit = "C";
