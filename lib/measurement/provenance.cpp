@@ -103,6 +103,7 @@ std::vector<std::vector<std::string>> known_rows(const std::filesystem::path& fi
   if (!places.contains(std::string(kHeading.front()))) return rows;
   while (reader.next(row)) {
     std::vector<std::string> cells;
+    cells.reserve(kHeading.size());
     for (const std::string_view name : kHeading) {
       const auto place = places.find(std::string(name));
       const bool is_there = place != places.end() && place->second < row.cells.size();
