@@ -4,6 +4,7 @@
 #include <array>
 
 #include "diagnosis/bootstrap.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -14,6 +15,16 @@ std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) 
   if (!one_sided)
     for (const double size : sizes) all.push_back(-size);
   return all;
+}
+
+/// Sizes of an effect that is a limit, closely spaced: a material that does not reach it does as the base, so that no
+/// slope leads from there to where it begins.
+std::vector<double> sizes_of_limit(std::string_view effect, std::span<const double> sizes) {
+  constexpr double kStep = 1.12;
+  std::vector<double> close;
+  if (material::find_effect(effect)->parameters.front().strength != material::Strength::reciprocal) return close;
+  for (double size = sizes.front() * kStep; size < sizes.back(); size *= kStep) close.push_back(size);
+  return close;
 }
 
 /// Where the further parameters of an effect are tried beside their usual values, one at a time, at the third size and
@@ -98,6 +109,16 @@ Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations
   }
   for (std::size_t i = 0; i < signature.at_elsewhere.size(); ++i)
     try_at(signature.elsewhere.col(static_cast<Eigen::Index>(i)), signature.at_elsewhere[i]);
+  std::vector<Eigen::VectorXd> points;
+  for (const double size : sizes_of_limit(signature.effect, rules.sizes)) {
+    points.push_back(widened_start(anchor, map));
+    points.back()[own] = size;
+  }
+  if (!points.empty()) {
+    const Eigen::MatrixXd predicted = model.predict(map, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      try_at(predicted.col(static_cast<Eigen::Index>(i)) - anchor.predicted, points[i].tail(map.size() - own));
+  }
   // An initial guess of exactly zero may be a stationary point of an effect that begins quadratically.
   if (best[own] == 0.0) best[own] = rules.sizes.front();
   return best;
