@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/contrasts.hpp"
@@ -26,25 +27,42 @@ std::vector<std::string> laws_of(std::string_view condition, const Observations&
   return laws;
 }
 
-/// The model with a law more, fitted from several sizes of it.
+/// Where descents to a law begin: every one of these sizes, of either sign, with every one of a few values of each of
+/// its further parameters. A law with two times has several local minima.
+std::vector<Eigen::VectorXd> starts_of(const CoordinateMap& map, const FittedModel& decided,
+                                       std::span<const double> sizes) {
+  constexpr std::array kShares = {0.2, 0.5, 0.8};
+  const auto own = static_cast<int>(decided.u.size());
+  std::vector<Eigen::VectorXd> starts;
+  for (const double size : sizes) {
+    for (const double signed_size : {size, -size}) {
+      if (signed_size < map.lower(own)) continue;
+      starts.push_back(widened_start(decided, map));
+      starts.back()[own] = signed_size;
+    }
+  }
+  for (int further = own + 1; further < map.size(); ++further) {
+    const std::vector<Eigen::VectorXd> so_far = std::exchange(starts, {});
+    for (const Eigen::VectorXd& start : so_far) {
+      for (const double share : kShares) {
+        starts.push_back(start);
+        starts.back()[further] = map.lower(further) + share * (map.upper(further) - map.lower(further));
+      }
+    }
+  }
+  return starts;
+}
+
+/// The model with a law more, by the best of descents from all starts.
 FittedModel fitted_with(const Evidence& evidence, const Observations& observations, const FittedModel& decided,
                         const std::string& law) {
   const FitRules& rules = evidence.settings.procedure.fit;
   std::vector<std::string> effects = decided.effects;
   effects.push_back(law);
-  const CoordinateMap map = evidence.model.map(effects);
-  const auto own = static_cast<int>(decided.u.size());
-  std::optional<FittedModel> best;
-  for (const double size : rules.sizes) {
-    for (const double signed_size : {size, -size}) {
-      if (signed_size < map.lower(own)) continue;
-      Eigen::VectorXd start = widened_start(decided, map);
-      start[own] = signed_size;
-      FittedModel fit = fit_model(evidence.model, observations, rules, effects, start);
-      if (!best || fit.chi2 < best->chi2) best = std::move(fit);
-    }
-  }
-  return *best;
+  std::vector<FittedModel> fits;
+  for (const Eigen::VectorXd& start : starts_of(evidence.model.map(effects), decided, rules.sizes))
+    fits.push_back(fit_model(evidence.model, observations, rules, effects, start));
+  return *std::ranges::min_element(fits, {}, &FittedModel::chi2);
 }
 
 /// Free levels of the conditions without a law in place of others, and, of a law of the rate in free form, exponents.
