@@ -122,6 +122,8 @@ void say_hello(const runtime::RunFolder& run) {
 TEST(Clients, FollowARunThatGoesOnAtAnotherPort) {
   const fs::path folder = fresh_folder("moved");
   game::Scenario scenario;
+  scenario.base_materials_file.clear();
+  scenario.discretisation_floor_file.clear();
   runtime::RunFolder run = runtime::RunFolder::create(folder, "moved", scenario);
   const runtime::PortReservation first(0), second(0);
   run.set_port(first.port());
