@@ -317,7 +317,7 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   for (int i = 0; i < options.distorted; ++i) add("distorted", "moduli", {}, i % 2 == 0, i / 2 % 2 == 1);
   add_in_turn("homogeneous", {"", "rate_power_law", "rate_dependence", "blend_law", "soft_rate_dependence"},
               options.homogeneous);
-  add_in_turn("machines", {"", "one_machine_compliance", "one_machine_gain"}, options.machines);
+  add_in_turn("machines", {"", "compliance_of_one_machine", "gain_of_one_machine"}, options.machines);
   add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
   add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
   add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);

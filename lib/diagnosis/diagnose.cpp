@@ -143,6 +143,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.finding = decision.finding;
   diagnosis.untold = decision.untold;
   diagnosis.factors = evidence.factors;
+  diagnosis.machines = observations.machines;
   diagnosis.p_misfit = plain(evidence).p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;

@@ -238,6 +238,7 @@ struct Diagnosis {
       possible;                                   ///< models that stay possible, the best first: names of their effects
   CommonGround common_ground;                     ///< of all possible models
   std::vector<ModulusAtBound> untold;             ///< with Reason::other_material: where specimens of these would tell
+  std::vector<std::string> machines;              ///< names of those that specimens were tested on
   std::vector<std::vector<std::string>> factors;  ///< least sets of conditions whose free levels make the base fit
   std::vector<CandidateEffect> candidates;        ///< of all known effects, in the order of material::effect_library();
                                                   ///< behind them named laws of conditions

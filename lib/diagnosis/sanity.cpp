@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "base/parallel.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/surroundings.hpp"
 #include "tester/modulus.hpp"
 #include "tester/refinement.hpp"
 #include "tester/toughness.hpp"
@@ -103,10 +105,15 @@ std::vector<SanityCheck> check_discretisation(const Observations& observations, 
 }
 
 std::vector<std::string> groups_out_of_line(const std::vector<measurement::SpecimenRecord>& specimens) {
+  // How machines differ is for the diagnosis to say.
+  std::map<std::string, std::vector<measurement::SpecimenRecord>> of_machine;
+  for (const measurement::SpecimenRecord& specimen : specimens)
+    of_machine[measurement::surroundings_of(specimen).machine].push_back(specimen);
   std::vector<std::string> groups;
-  for (const measurement::ReplicateGroup& group : measurement::review_replicates(specimens))
-    if (!group.proposed.empty() || group.state == measurement::GroupState::inconsistent)
-      groups.push_back(fmt::format("{} of {}", tester::to_string(group.test), group.design.name()));
+  for (const auto& [machine, own] : of_machine)
+    for (const measurement::ReplicateGroup& group : measurement::review_replicates(own))
+      if (!group.proposed.empty() || group.state == measurement::GroupState::inconsistent)
+        groups.push_back(fmt::format("{} of {}", tester::to_string(group.test), group.design.name()));
   // One design under several conditions is said once.
   std::set<std::string> said;
   std::erase_if(groups, [&](const std::string& group) { return !said.insert(group).second; });

@@ -19,9 +19,23 @@ std::string with_interval(const FittedNumber& number, std::string_view unit) {
                      number.interval_low, number.interval_high);
 }
 
+/// "a compliance of the machine "old" = 1e-10 1/Pa (90 % interval ...) beyond that of "new"".
+std::string machine_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
+  const bool is_second = e.parameter > 0.0;
+  const std::string &one = machines[is_second ? 1 : 0], &other = machines[is_second ? 0 : 1];
+  if (e.name == "gain_of_one_machine")
+    return fmt::format("a gain of the machine \"{}\", which reads {} times as much as \"{}\"", machines[1],
+                       with_interval({1.0 + e.parameter, 1.0 + e.interval_low, 1.0 + e.interval_high}, "1"),
+                       machines[0]);
+  const auto [low, high] = std::minmax({std::abs(e.interval_low), std::abs(e.interval_high)});
+  return fmt::format("a compliance of the machine \"{}\" = {} beyond that of \"{}\"", one,
+                     with_interval({std::abs(e.parameter), low, high}, e.unit), other);
+}
+
 /// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and the further parameters of an effect.
-std::string size_in_words(const NamedEffect& e) {
+std::string size_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
   const material::Effect& effect = *material::find_effect(e.name);
+  if (effect.law_of == "machine" && machines.size() == 2) return machine_in_words(e, machines);
   if (!e.derived.empty()) {
     std::vector<std::string> told;
     for (std::size_t p = 0; p < e.derived.size(); ++p)
@@ -149,7 +163,8 @@ std::string levels_in_words(const Diagnosis& d) {
 
 std::string named_in_words(const Diagnosis& d) {
   std::string text = "The simulation lacks ";
-  for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
+  for (std::size_t i = 0; i < d.effects.size(); ++i)
+    text += (i ? " and " : "") + size_in_words(d.effects[i], d.machines);
   text += fmt::format(": {}.", reason_in_words(d));
   if (d.possible.size() > 1)
     text += fmt::format(" Its form is open: {} explain these data equally well.", models_in_words(d.possible));

@@ -190,9 +190,9 @@ double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
 
 /// The effects on one of two machines, whose own differences are part of compliance and gain there.
 HiddenEffects on_machine(HiddenEffects effects, bool is_second) {
-  const double further = effects.one_machine_compliance_per_pa;
+  const double further = effects.compliance_of_one_machine_per_pa;
   if (is_second == (further > 0.0)) effects.machine_compliance_per_pa += std::abs(further);
-  if (is_second) effects.load_cell_gain = (1.0 + effects.load_cell_gain) * (1.0 + effects.one_machine_gain) - 1.0;
+  if (is_second) effects.load_cell_gain = (1.0 + effects.load_cell_gain) * (1.0 + effects.gain_of_one_machine) - 1.0;
   return effects;
 }
 

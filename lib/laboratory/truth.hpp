@@ -42,8 +42,8 @@ struct HiddenEffects {
   double rate_exponent = 0.0, rate_exponent_ratio = 0.0;
   double two_overstresses = 0.0, shorter_relaxation_s = 0.0;
   double blend_bulge = 0.0;
-  double one_machine_compliance_per_pa = 0.0;
-  double one_machine_gain = 0.0;
+  double compliance_of_one_machine_per_pa = 0.0;
+  double gain_of_one_machine = 0.0;
   // Other forms of effects of the diagnosis' library.
   double smooth_mixing_pixels = 0.0;
   double longer_notch = 0.0;

@@ -150,15 +150,16 @@ constexpr std::array kConditionLaws = {
                                       "All materials are stiffer the faster they are pulled, by two relaxation times "
                                       "(a Prony series)."),
                                "rate_dependence", "prony")),
-    law_of("machine", form(effect("one_machine_compliance", "measurement", EffectSide::measurement,
+    law_of("machine", form(effect("compliance_of_one_machine", "measurement", EffectSide::measurement,
                                   kOneMachineCompliance, kElastic,
                                   "One of two machines has a spring in series that the other has not: the difference "
                                   "between them grows with stiffness."),
                            "machine_compliance", "one_machine")),
-    law_of("machine", form(effect("one_machine_gain", "measurement", EffectSide::measurement, kOneMachineGain, kElastic,
-                                  "One of two machines reads higher than the other by one factor, whatever the "
-                                  "material: load cell, cross-section or gauge length."),
-                           "load_cell_gain", "one_machine")),
+    law_of("machine",
+           form(effect("gain_of_one_machine", "measurement", EffectSide::measurement, kOneMachineGain, kElastic,
+                       "One of two machines reads higher than the other by one factor, whatever the "
+                       "material: load cell, cross-section or gauge length."),
+                "load_cell_gain", "one_machine")),
     law_of("temperature", effect("temperature_shift", "temperature", EffectSide::material, kTemperatureShift, kElastic,
                                  "A warm specimen responds as a cold one that is pulled more slowly (time-temperature "
                                  "superposition).")),

@@ -20,9 +20,9 @@ struct TestingMachine {
         gain(1.0 + material::extension_value(extensions, "load_cell_gain")) {
     const double per_step = material::extension_value(extensions, "batch_drift");
     if (per_step != 0.0) drift = std::exp(context.batch_step * std::log1p(per_step));
-    const double further = material::extension_value(extensions, "one_machine_compliance");
+    const double further = material::extension_value(extensions, "compliance_of_one_machine");
     compliance_per_pa += std::max(0.0, context.on_second_machine ? further : -further);
-    if (context.on_second_machine) gain *= 1.0 + material::extension_value(extensions, "one_machine_gain");
+    if (context.on_second_machine) gain *= 1.0 + material::extension_value(extensions, "gain_of_one_machine");
   }
   bool is_ideal() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
 };

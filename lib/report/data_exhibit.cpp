@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/counted.hpp"
 #include "pattern/design.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
@@ -18,6 +19,8 @@ using diagnosis::ConditionTrend;
 using diagnosis::DataSummary;
 using diagnosis::MeasuredMean;
 using diagnosis::Quantity;
+
+constexpr std::size_t kMostOpen = 12;  ///< rows of a table that is not folded
 
 bool is_homogeneous(const MeasuredMean& mean) {
   const auto design = pattern::design_from_word(mean.design);
@@ -124,7 +127,7 @@ ExhibitTable mean_table(const DataSummary& data) {
   return table;
 }
 
-ExhibitTable trend_table(const DataSummary& data) {
+ExhibitTable trend_table(const std::vector<ConditionTrend>& trends) {
   ExhibitTable table{
       .name = "",
       .columns = {{"", "of"},
@@ -137,7 +140,7 @@ ExhibitTable trend_table(const DataSummary& data) {
                   {"", "exponent of the rate", "The quantity grows as the strain rate to this power"},
                   {"", "chance", "Of a change as large by scatter alone, times the number of rows of this table"}}};
   table.look = "words";
-  for (const ConditionTrend& t : data.trends) {
+  for (const ConditionTrend& t : trends) {
     const bool of_rate = t.exponent_low != t.exponent_high;
     table.add({text_cell(t.of), text_cell(to_string(t.quantity)), text_cell(t.condition),
                text_cell(fmt::format("{} … {}", t.from, t.to)), shown_cell(fmt::format("{}", t.pieces)),
@@ -148,6 +151,19 @@ ExhibitTable trend_table(const DataSummary& data) {
                shown_cell(chance(t.chance))});
   }
   return table;
+}
+
+/// What changes beyond scatter, open, and everything else, folded where that is long.
+void put_trends(Exhibit& exhibit, const std::vector<ConditionTrend>& trends) {
+  if (trends.empty()) return;
+  if (trends.size() <= kMostOpen) return exhibit.tables.push_back(trend_table(trends));
+  constexpr double kSure = 0.05;
+  std::vector<ConditionTrend> sure, others;
+  for (const ConditionTrend& trend : trends) (trend.chance < kSure ? sure : others).push_back(trend);
+  if (!sure.empty()) exhibit.tables.push_back(trend_table(sure));
+  if (others.empty()) return;
+  exhibit.tables.push_back(trend_table(others));
+  exhibit.tables.back().folded = fmt::format("{} that may be scatter", counted(others.size(), "change"));
 }
 
 }  // namespace
@@ -161,8 +177,11 @@ Exhibit data_exhibit(const DataSummary& data) {
   exhibit.notes.push_back(
       "Before any model: what homogeneous specimens measured, and what changes with the conditions.");
   if (std::string figure = rate_figure(data); !figure.empty()) exhibit.figures.push_back({"", std::move(figure)});
-  if (ExhibitTable means = mean_table(data); !means.rows.empty()) exhibit.tables.push_back(std::move(means));
-  if (!data.trends.empty()) exhibit.tables.push_back(trend_table(data));
+  if (ExhibitTable means = mean_table(data); !means.rows.empty()) {
+    if (means.rows.size() > kMostOpen) means.folded = fmt::format("All {}", counted(means.rows.size(), "mean"));
+    exhibit.tables.push_back(std::move(means));
+  }
+  put_trends(exhibit, data.trends);
   exhibit.fine_print.push_back(
       "Changes by least squares on logarithms, within designs or, where every piece was tested under several "
       "conditions, within pieces.");

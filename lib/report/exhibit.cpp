@@ -86,8 +86,13 @@ std::string content_of(const Exhibit& exhibit) {
                            i + 1 == exhibit.list.size() ? "</ol>\n" : "");
   for (const std::string& warning : exhibit.warnings) content += paragraph(warning, "warning");
   content += figures_of(exhibit);
-  for (const ExhibitTable& table : exhibit.tables)
-    if (table.on_page && !table.rows.empty()) content += "<div class=\"wide\">" + html_of(table) + "</div>\n";
+  for (const ExhibitTable& table : exhibit.tables) {
+    if (!table.on_page || table.rows.empty()) continue;
+    const std::string shown = "<div class=\"wide\">" + html_of(table) + "</div>\n";
+    content += table.folded.empty()
+                   ? shown
+                   : fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(table.folded), shown);
+  }
   for (const Exhibit& part : exhibit.parts)
     content += fmt::format("<h3>{}</h3>\n", escaped(part.heading)) + content_of(part);
   for (const std::string& line : exhibit.fine_print) content += paragraph(line, "quiet");

@@ -41,6 +41,7 @@ struct ExhibitTable {
   std::vector<std::vector<Cell>> rows = {};
   std::vector<TableRowKind> kinds = {};  ///< per row
   bool on_page = true;                   ///< false: the data of a figure
+  std::string folded = {};               ///< what a person opens it by; empty: it is open
   std::string look =
       {};  ///< CSS classes: "words" for text, "words wrapped" for sentences, "named" for text in the second column
   void add(std::vector<Cell> row, TableRowKind kind = TableRowKind::own);

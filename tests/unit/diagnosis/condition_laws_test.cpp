@@ -45,12 +45,12 @@ TEST(ConditionLaws, AMachineThatReadsHigherIsAGain) {
       diagnose(in_batches(specimens_of(on_two_machines({1.0, 0.0}), reads_higher)), quick_settings());
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
   ASSERT_EQ(diagnosis.effects.size(), 1u);
-  EXPECT_EQ(diagnosis.effects.front().name, "one_machine_gain");
+  EXPECT_EQ(diagnosis.effects.front().name, "gain_of_one_machine");
   EXPECT_NEAR(diagnosis.effects.front().parameter, 0.2, 0.03);
   // Twelve specimens on each machine.
   const double width = diagnosis.effects.front().interval_high - diagnosis.effects.front().interval_low;
   EXPECT_NEAR(width / (2.0 * 1.645 * 1.2 * diagnosis.replicate_sd * std::sqrt(2.0 / 12.0)), 1.0, 0.15);
-  EXPECT_EQ(diagnosis.candidates.back().name, "one_machine_gain");
+  EXPECT_EQ(diagnosis.candidates.back().name, "gain_of_one_machine");
   EXPECT_EQ(diagnosis.candidates.back().status, CandidateStatus::in_set);
   ASSERT_TRUE(diagnosis.gain);
   EXPECT_LT(diagnosis.gain->held_out_error_after, 0.5 * diagnosis.gain->held_out_error_before);
@@ -62,7 +62,7 @@ TEST(ConditionLaws, ASpringSoftensWhatIsStiff) {
     const auto law = [&](const Made& made) { return with_a_spring(made, is_on_second(made) == on_second); };
     const Diagnosis diagnosis = diagnose(in_batches(specimens_of(on_two_machines({1.0, 0.0}), law)), quick_settings());
     ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
-    EXPECT_EQ(diagnosis.effects.front().name, "one_machine_compliance");
+    EXPECT_EQ(diagnosis.effects.front().name, "compliance_of_one_machine");
     EXPECT_NEAR(diagnosis.effects.front().parameter, on_second ? 1e-10 : -1e-10, 2e-11);
   }
 }
@@ -74,6 +74,16 @@ TEST(ConditionLaws, OneStiffnessCannotPartThem) {
   EXPECT_EQ(diagnosis.finding.reason, Reason::factor);
   EXPECT_EQ(diagnosis.cautions.rival_laws.size(), 2u);
   EXPECT_FALSE(diagnosis.cautions.machines_not_compared);
+}
+
+// Whoever reads the answer has to know which machine to mend.
+TEST(ConditionLaws, TheMachineIsCalledByItsName) {
+  const auto law = [&](const Made& made) { return with_a_spring(made, !is_on_second(made)); };
+  const Diagnosis diagnosis = diagnose(in_batches(specimens_of(on_two_machines({1.0, 0.0}), law)), quick_settings());
+  EXPECT_EQ(diagnosis.machines, (std::vector<std::string>{"A", "B"}));
+  EXPECT_NE(diagnosis.summary.find("of the machine \"A\""), std::string::npos) << diagnosis.summary;
+  EXPECT_EQ(diagnosis.summary.find("interval 0 "), std::string::npos) << diagnosis.summary;
+  EXPECT_TRUE(diagnosis.cautions.out_of_line.empty()) << "how machines differ is explained";
 }
 
 // Each machine with specimens of its own: they may differ.
@@ -92,7 +102,7 @@ TEST(ConditionLaws, MachinesAreBlamedBesideARateLaw) {
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
   ASSERT_EQ(diagnosis.effects.size(), 2u);
   EXPECT_EQ(diagnosis.effects.front().name, "rate_power_law");
-  EXPECT_EQ(diagnosis.effects.back().name, "one_machine_gain");
+  EXPECT_EQ(diagnosis.effects.back().name, "gain_of_one_machine");
 }
 
 const material::Phases kPhases = material::phases_of(material::default_parameters().modulus);

@@ -352,12 +352,12 @@ TEST(Machines, OneOfTwoReadsOtherwise) {
   };
   const double plain_pa = recorded_pa(false);
   EXPECT_EQ(recorded_pa(true), plain_pa);
-  truth.effects.one_machine_gain = 0.2;
+  truth.effects.gain_of_one_machine = 0.2;
   EXPECT_EQ(recorded_pa(false), plain_pa);
   EXPECT_NEAR(recorded_pa(true) / plain_pa, 1.2, 1e-12);
-  truth.effects.one_machine_gain = 0.0;
+  truth.effects.gain_of_one_machine = 0.0;
   for (const double compliance_per_pa : {1e-10, -1e-10}) {
-    truth.effects.one_machine_compliance_per_pa = compliance_per_pa;
+    truth.effects.compliance_of_one_machine_per_pa = compliance_per_pa;
     const bool on_second = compliance_per_pa > 0.0;
     EXPECT_EQ(recorded_pa(!on_second), plain_pa);
     EXPECT_NEAR(1.0 / recorded_pa(on_second) - 1.0 / plain_pa, 1e-10, 1e-15);

@@ -36,8 +36,8 @@ TEST(ObserveAlong, FindsTheStressesBehindWhatTheMachineRecorded) {
 
 TEST(Observe, OneOfTwoMachinesReadsOtherwise) {
   const PrintContext second{.on_second_machine = true};
-  const material::Extensions gain = {{"one_machine_gain", {0.2}}}, spring = {{"one_machine_compliance", {1e-10}}},
-                             other_spring = {{"one_machine_compliance", {-1e-10}}};
+  const material::Extensions gain = {{"gain_of_one_machine", {0.2}}}, spring = {{"compliance_of_one_machine", {1e-10}}},
+                             other_spring = {{"compliance_of_one_machine", {-1e-10}}};
   EXPECT_EQ(observe_modulus(1e9, gain), 1e9);
   EXPECT_NEAR(observe_modulus(1e9, gain, second), 1.2e9, 1.0);
   EXPECT_EQ(observe_modulus(1e9, spring), 1e9);
