@@ -50,15 +50,6 @@ std::string trends_in_words(const DataSummary& data);
 std::string bundle_in_words(const PossibleTest& test);
 std::string specimen_in_words(const PossibleTest& test);
 
-/// The gain of a named effect on designs that the fit has not seen, in a sentence: errors as per cent of E and T, and a
-/// gain (or a loss) only where the 90 % interval leaves no doubt of its sign. A cause may be sure and its gain not: the
-/// base imitates most of it there.
-std::string gain_in_words(const Gain& gain);
-
-/// Whether the choice of designs changes, in a sentence for each of E and T; empty where no two designs differ by
-/// enough.
-std::string choice_in_words(const Gain& gain);
-
 /// Verdict with its reason, gain, and everything that limits what the verdict is worth.
 std::string summary_of(const Diagnosis& diagnosis);
 

@@ -7,6 +7,7 @@
 
 #include "base/statistics.hpp"
 #include "diagnosis/procedure.hpp"
+#include "diagnosis/gain_words.hpp"
 #include "diagnosis/words.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"

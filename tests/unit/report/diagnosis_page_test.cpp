@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnosis/gain_words.hpp"
 #include "diagnosis/words.hpp"
 
 namespace nacre::report {
