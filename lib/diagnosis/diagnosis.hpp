@@ -50,8 +50,9 @@ enum class Reason {
 /// Why it was decided so.
 struct Finding {
   Reason reason = Reason::residuals_are_noise;
-  std::vector<std::string> nearest = {};  ///< from at_bound to worse_unseen: the effects that come nearest
-  double value = 0.0;      ///< at_bound: size in the effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
+  std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen: the effects that come nearest
+  double value = 0.0;      ///< residuals_stay: share of chi squared that they take away; at_bound: size in the
+                           ///< effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
                            ///< chance of a misfit as large as that of the nearest law
   double needed = 0.0;     ///< weak_signal, discrepancy: of a name
   std::string along = {};  ///< contrast, condition: which

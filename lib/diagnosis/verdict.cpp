@@ -93,7 +93,10 @@ Decision decided_among_pairs(const Evidence& evidence, Decision decision) {
   if (!possible.empty()) return settled(evidence, std::move(decision), std::move(possible), Reason::two_effects);
   std::vector<FittedModel> tried = evidence.singles;
   tried.insert(tried.end(), evidence.pairs.begin(), evidence.pairs.end());
-  return unexplained(std::move(decision), tried, {.reason = Reason::residuals_stay});
+  decision = unexplained(std::move(decision), tried, {.reason = Reason::residuals_stay});
+  decision.finding.nearest = decision.partial->effects;
+  decision.finding.value = 1.0 - decision.partial->chi2 / evidence.base.fit.chi2;
+  return decision;
 }
 
 Decision decided_among_effects(const Evidence& evidence, Decision decision) {

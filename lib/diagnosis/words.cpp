@@ -111,8 +111,10 @@ std::string reason_in_words(const Diagnosis& d) {
       return "the residuals are larger than noise, but no known effect improves the fit beyond chance: an unmodelled "
              "cause acts";
     case Reason::residuals_stay:
-      return "even with the best one or two known effects the residuals stay larger than noise: an unmodelled cause "
-             "acts";
+      return fmt::format(
+          "even with the best one or two known effects ({}, which takes {:.3g} % of chi squared away) the residuals "
+          "stay larger than noise: an unmodelled cause, or another form of a known one, acts",
+          in_words(finding.nearest), 100.0 * finding.value);
     case Reason::at_bound: {
       const material::Effect& effect = *material::find_effect(finding.nearest.front());
       return fmt::format("{} comes nearest, but its size, {:.3g}{}, is at its bound: one beyond it may be the cause",

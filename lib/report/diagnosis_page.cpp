@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/statistics.hpp"
-#include "diagnosis/procedure.hpp"
 #include "diagnosis/gain_words.hpp"
+#include "diagnosis/procedure.hpp"
 #include "diagnosis/words.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
@@ -148,13 +148,13 @@ Exhibit cause_exhibit(const Diagnosis& d) {
 
 /// The status of a candidate effect and why.
 std::string status_cell(const CandidateEffect& c, Verdict verdict) {
-  const std::string status = escaped(status_in_words(to_string(c.status)));
+  const std::string status = escaped(status_in_words(to_string(c.status), c.p_family_wise));
   if (c.status == CandidateStatus::in_set) return fmt::format("<strong>{}</strong>", status);
   if (c.status == CandidateStatus::invisible) return status + " (it may act all the same)";
   if (c.status != CandidateStatus::excluded) return status + " (these tests cannot show it)";
-  if (c.p_family_wise > diagnosis::Levels{}.name) return status + " (no sign of it)";
-  return status + (verdict == Verdict::unexplained ? " (improves the fit, but cannot be named)"
-                                                   : " (improves the fit, but others explain the data better)");
+  if (c.p_family_wise > diagnosis::Levels{}.name) return status;
+  return status + (verdict == Verdict::unexplained ? " (improves the fit, not enough)"
+                                                   : " (improves the fit, others explain the data better)");
 }
 
 constexpr const char* kCandidateColumns =

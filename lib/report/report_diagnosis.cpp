@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/procedure.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 #include "run/misfit.hpp"
@@ -31,8 +32,10 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
       .columns = {
           {"", "candidate effect"},
           {"", "status",
-           "explains it: with this effect the model agrees with the measurements. no sign of it: other effects explain "
-           "them better, or nothing is to be explained. these tests cannot say: it may act, these specimens would not "
+           "explains it: with this effect the model agrees with the measurements. does not explain it: the fit "
+           "improves, "
+           "but other effects explain more, or none enough. no sign of it: it would have shown. these tests cannot "
+           "say: it may act, these specimens would not "
            "show it"},
           {"", "improvement of fit (chi squared)",
            "How much chi squared falls when the effect joins the refitted base model"},
@@ -41,7 +44,7 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
   table.look = "named";
   for (const wire::DiagnosedCandidate& c : candidates) {
     const bool was_fitted = c.status != "not_applicable";
-    const std::string status = escaped(status_in_words(c.status));
+    const std::string status = escaped(status_in_words(c.status, c.p_family_wise));
     table.add({shown_cell(effect_name(c.name)),
                shown_cell(c.status == "in_set" ? fmt::format("<strong>{}</strong>", status) : status),
                shown_cell(was_fitted ? figure(c.statistic) : "–"),
@@ -82,9 +85,9 @@ std::string verdict_in_words(const std::string& verdict) {
   return verdict;
 }
 
-std::string status_in_words(std::string_view status) {
+std::string status_in_words(std::string_view status, double p_family_wise) {
   if (status == "in_set") return "explains it";
-  if (status == "excluded") return "no sign of it";
+  if (status == "excluded") return p_family_wise <= diagnosis::Levels{}.name ? "does not explain it" : "no sign of it";
   if (status == "invisible" || status == "not_applicable") return "these tests cannot say";
   return std::string(status);
 }

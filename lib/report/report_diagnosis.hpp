@@ -16,6 +16,6 @@ std::string verdict_in_words(const std::string& verdict);
 
 /// The status of a candidate effect, as its wire value, in plain words: explains it, no sign of it, these tests
 /// cannot say.
-std::string status_in_words(std::string_view status);
+std::string status_in_words(std::string_view status, double p_family_wise);
 
 }  // namespace nacre::report

@@ -36,9 +36,10 @@ function noNextTest(d: Diagnosis): string {
 /** What a status means. */
 const STATUS: Record<string, { text: string; hint: string }> = {
   in_set: { text: "explains it", hint: "With this effect the model agrees with the measurements." },
-  excluded: {
-    text: "no sign of it",
-    hint: "The measurements show no sign of it, or another effect explains them better.",
+  excluded: { text: "no sign of it", hint: "It would have shown." },
+  noticed: {
+    text: "does not explain it",
+    hint: "The fit improves with it, but other effects explain more, or none explains enough.",
   },
   invisible: {
     text: "these tests cannot say",
@@ -46,6 +47,13 @@ const STATUS: Record<string, { text: string; hint: string }> = {
   },
   not_applicable: { text: "these tests cannot say", hint: "No specimen and test of this set would show it." },
 };
+
+/** Chance below which an effect is noticed (Levels::name). */
+const NOTICED = 0.003;
+
+function statusOf(c: CandidateEffect) {
+  return STATUS[c.status === "excluded" && c.p_family_wise <= NOTICED ? "noticed" : c.status];
+}
 
 /** A number of a candidate effect; a dash for one that these specimens cannot show. */
 const weighed = (candidate: CandidateEffect, text: string) => (candidate.status === "not_applicable" ? "–" : text);
@@ -224,8 +232,8 @@ function Candidates({ diagnosis }: { diagnosis: Diagnosis }) {
             csv: "status",
             words: true,
             show: (c) => (
-              <span class={`chip ${c.status === "in_set" ? "approved" : ""}`} title={STATUS[c.status]?.hint}>
-                {STATUS[c.status]?.text ?? words(c.status)}
+              <span class={`chip ${c.status === "in_set" ? "approved" : ""}`} title={statusOf(c)?.hint}>
+                {statusOf(c)?.text ?? words(c.status)}
               </span>
             ),
             value: (c) => c.status,
