@@ -69,8 +69,8 @@ void print_candidates(const diagnosis::Diagnosis& d) {
     }
     const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
     fmt::print("  {:<34} {:<26} {:>18.1f} {:>7.4f} {:>7.0f} % {:>6.1f}  {}{}\n", material::effect_in_words(c.name),
-               report::status_in_words(to_string(c.status), c.p_family_wise), c.statistic, c.p_family_wise, 100 * c.absorption,
-               c.signal_to_noise, size_or_dash(c.smallest_seen),
+               report::status_in_words(to_string(c.status), c.p_family_wise), c.statistic, c.p_family_wise,
+               100 * c.absorption, c.signal_to_noise, size_or_dash(c.smallest_seen),
                c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
   if (!unseen.empty()) fmt::print("  these tests cannot say: {}\n", unseen);
