@@ -53,14 +53,36 @@ std::vector<Eigen::VectorXd> starts_of(const CoordinateMap& map, const FittedMod
   return starts;
 }
 
-/// The model with a law more, by the best of descents from all starts.
+/// Those of the starts from which most is explained once the other constants are refitted linearly.
+std::vector<Eigen::VectorXd> best_of(std::vector<Eigen::VectorXd> starts, const CoordinateMap& map,
+                                     const FeatureModel& model, const Observations& observations,
+                                     const FittedModel& decided) {
+  constexpr std::size_t kDescents = 5;
+  if (starts.size() <= kDescents) return starts;
+  const Whitener whitener(observations.covariance());
+  const Eigen::MatrixXd predicted = model.predict(map, starts);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    FittedModel shifted = decided;
+    shifted.predicted = predicted.col(static_cast<Eigen::Index>(i));
+    order.emplace_back(linear_refit(shifted, observations.values, whitener), i);
+  }
+  std::ranges::sort(order);
+  std::vector<Eigen::VectorXd> best;
+  for (std::size_t k = 0; k < kDescents; ++k) best.push_back(std::move(starts[order[k].second]));
+  return best;
+}
+
+/// The model with a law more, by the best of descents from the best starts.
 FittedModel fitted_with(const Evidence& evidence, const Observations& observations, const FittedModel& decided,
                         const std::string& law) {
   const FitRules& rules = evidence.settings.procedure.fit;
   std::vector<std::string> effects = decided.effects;
   effects.push_back(law);
+  const CoordinateMap map = evidence.model.map(effects);
   std::vector<FittedModel> fits;
-  for (const Eigen::VectorXd& start : starts_of(evidence.model.map(effects), decided, rules.sizes))
+  for (const Eigen::VectorXd& start :
+       best_of(starts_of(map, decided, rules.sizes), map, evidence.model, observations, decided))
     fits.push_back(fit_model(evidence.model, observations, rules, effects, start));
   return *std::ranges::min_element(fits, {}, &FittedModel::chi2);
 }

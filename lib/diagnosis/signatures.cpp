@@ -20,7 +20,7 @@ std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) 
 /// Sizes of an effect that is a limit, closely spaced: a material that does not reach it does as the base, so that no
 /// slope leads from there to where it begins.
 std::vector<double> sizes_of_limit(std::string_view effect, std::span<const double> sizes) {
-  constexpr double kStep = 1.12;
+  constexpr double kStep = 1.2;
   std::vector<double> close;
   if (material::find_effect(effect)->parameters.front().strength != material::Strength::reciprocal) return close;
   for (double size = sizes.front() * kStep; size < sizes.back(); size *= kStep) close.push_back(size);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/contrasts.hpp"
 #include "report/report_figures.hpp"
 #include "report/svg.hpp"
 
@@ -51,7 +52,9 @@ bool is_orientation(const ContrastView& view) { return view.against == "orientat
 
 std::string abscissa_label(const ContrastView& view) {
   if (view.against == diagnosis::kPredictedLevel) return fmt::format("{} predicted, MPa", in_words(view.feature));
-  const std::string unit = view.against == "strain rate" ? " (log of 1/s)" : is_orientation(view) ? " (degrees)" : "";
+  const std::string unit = view.against == diagnosis::kStrainRate ? " (log of 1/s)"
+                           : is_orientation(view)                 ? " (degrees)"
+                                                                  : "";
   return view.against + unit;
 }
 
