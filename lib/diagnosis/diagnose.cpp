@@ -144,6 +144,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.untold = decision.untold;
   diagnosis.factors = evidence.factors;
   diagnosis.machines = observations.machines;
+  std::erase(diagnosis.machines, "");  // not noted
   diagnosis.p_misfit = plain(evidence).p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;

@@ -184,6 +184,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"summary", d.summary},
                                  {"effects", array_of(d.effects)},
                                  {"factors", d.factors},
+                                 {"machines", d.machines},
                                  {"candidates", array_of(d.candidates)},
                                  {"contrasts", array_of(d.contrasts)},
                                  {"loudest", in_words(d.loudest)},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "blind_trial.hpp"
 
 namespace nacre::blind {
@@ -88,6 +90,23 @@ TEST(BlindHomogeneousTrials, ThePowerOfTheRateIsNamedWithTheShiftByTemperature) 
   EXPECT_GE(shift["interval90"][1].get<double>(), 8.86 / 101.6);
   ASSERT_EQ(trial.diagnosis["factors"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["factors"][0], (std::vector<std::string>{"strain rate", "temperature"}));
+}
+
+// As a person would: measured on two machines by the command line.
+TEST(BlindHomogeneousTrials, ASpringOfOneOfTwoMachinesIsNamed) {
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.folder() / "LAB.toml", set = scratch.folder() / "set";
+  std::ofstream(file) << laboratory(72, "compliance_of_one_machine", "1e-10");
+  output_of(std::string(NACRE_BINARY_DIR) + "/nacre measure --lab " + file.string() + " --out " + set.string() +
+            " --test modulus --machine a b --rate 1e-3 1e-2 -- soft mix:0.25 interface mix:0.75 rigid");
+  const nlohmann::json diagnosis = diagnosed(set, "tiny");
+  ASSERT_EQ(diagnosis["verdict"], "named") << diagnosis["summary"];
+  ASSERT_EQ(diagnosis["effects"].size(), 1u);
+  EXPECT_EQ(diagnosis["effects"][0]["name"], "machine_compliance");
+  EXPECT_EQ(diagnosis["effects"][0]["form"], "one_machine");
+  EXPECT_NEAR(diagnosis["effects"][0]["parameter"].get<double>(), 1e-10, 2e-11);
+  EXPECT_EQ(diagnosis["machines"], (std::vector<std::string>{"a", "b"}));
+  EXPECT_GT(diagnosis["gain"]["interval90"][0].get<double>(), 0.3);
 }
 
 TEST(BlindHomogeneousTrials, NothingIsNamedWhereNothingActs) {
