@@ -137,8 +137,8 @@ tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, cons
   const Result<DecodedText> text = decoded(bytes);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
-  if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
-    return listed_sweep(tables, *text, choice, file);
+  const ExportTables sweep = may_be_sweep(choice) ? sweep_tables_of(lines) : ExportTables{};
+  if (!sweep.blocks.empty()) return listed_sweep(sweep, *text, choice, file);
   const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   const ExportParts parts = parts_of(*tables, choice, file);

@@ -97,8 +97,8 @@ tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::str
   const Result<DecodedText> text = decoded(bytes, hints);
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
-  if (const ExportTables tables = sweep_tables_of(lines); may_be_sweep(choice) && !tables.blocks.empty())
-    return sweep_records(tables, *text, lines, choice, file);
+  const ExportTables sweep = may_be_sweep(choice) ? sweep_tables_of(lines) : ExportTables{};
+  if (!sweep.blocks.empty()) return sweep_records(sweep, *text, lines, choice, file);
   const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   ExportParts found = parts_of(*tables, choice, file);
