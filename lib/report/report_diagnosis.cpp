@@ -33,10 +33,8 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
           {"", "candidate effect"},
           {"", "status",
            "explains it: with this effect the model agrees with the measurements. does not explain it: the fit "
-           "improves, "
-           "but other effects explain more, or none enough. no sign of it: it would have shown. these tests cannot "
-           "say: it may act, these specimens would not "
-           "show it"},
+           "improves, but other effects explain more, or none enough. no sign of it: it would have shown. these tests "
+           "cannot say: it may act, these specimens would not show it"},
           {"", "improvement of fit (chi squared)",
            "How much chi squared falls when the effect joins the refitted base model"},
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
