@@ -110,12 +110,9 @@ Condition visible_homogeneous(bool known) {
            (material::find_effect(s.trial.hidden.front()) != nullptr) == known;
   };
 }
-bool homogeneous_null(const Score& s) { return s.trial.kind == "homogeneous" && s.trial.hidden.empty(); }
-/// Of a kind of trial some of which hide nothing.
-Condition hiding(std::string_view kind, bool hides) {
-  return [=](const Score& s) {
-    return s.trial.kind == kind && s.trial.hidden.empty() != hides && (!hides || faintest(s).snr >= 8.0);
-  };
+/// Of a kind of trial some of which hide nothing: these.
+Condition null_of_kind(std::string_view kind) {
+  return [kind](const Score& s) { return s.trial.kind == kind && s.trial.hidden.empty(); };
 }
 
 struct TrialRate {
@@ -148,22 +145,23 @@ std::vector<TrialRate> rates() {
       {"two at once: a wrong name", of_kind("double"), named_wrongly, ""},
       {"homogeneous, a known cause, SNR >= 8: right name", visible_homogeneous(true), named_rightly, ">= 95 %"},
       {"homogeneous, another form: a name of another family", visible_homogeneous(false), named_of_another_family, "0"},
-      {"homogeneous, nothing hidden: base sufficient", homogeneous_null, has_verdict("base_sufficient"), ">= 97 %"},
-      {"homogeneous, nothing hidden: any name", homogeneous_null, has_verdict("named"), "0"},
-      {"loops of coupons, SNR >= 8: its family named", visible_of_kind("loops"), right_family, ">= 95 %"},
-      {"loops of coupons: a name of another family", hiding("loops", true), named_of_another_family, "0"},
-      {"loops of coupons, nothing hidden: base sufficient", hiding("loops", false), has_verdict("base_sufficient"),
+      {"homogeneous, nothing hidden: base sufficient", null_of_kind("homogeneous"), has_verdict("base_sufficient"),
        ">= 97 %"},
-      {"two machines, SNR >= 8: right name", hiding("machines", true), named_rightly, ">= 95 %"},
-      {"two machines that are alike: base sufficient", hiding("machines", false), has_verdict("base_sufficient"),
+      {"homogeneous, nothing hidden: any name", null_of_kind("homogeneous"), has_verdict("named"), "0"},
+      {"loops of coupons, SNR >= 8: its family named", visible_of_kind("loops"), right_family, ">= 95 %"},
+      {"loops of coupons: a name of another family", visible_of_kind("loops"), named_of_another_family, "0"},
+      {"loops of coupons, nothing hidden: base sufficient", null_of_kind("loops"), has_verdict("base_sufficient"),
+       ">= 97 %"},
+      {"two machines, SNR >= 8: right name", visible_of_kind("machines"), named_rightly, ">= 95 %"},
+      {"two machines that are alike: base sufficient", null_of_kind("machines"), has_verdict("base_sufficient"),
        ">= 97 %"},
       {"two machines: a wrong name", of_kind("machines"), named_wrongly, "0"},
-      {"seven decades of the rate, SNR >= 8: right name", hiding("spectrum", true), named_rightly, ">= 95 %"},
-      {"seven decades, nothing hidden: base sufficient", hiding("spectrum", false), has_verdict("base_sufficient"),
+      {"seven decades of the rate, SNR >= 8: right name", visible_of_kind("spectrum"), named_rightly, ">= 95 %"},
+      {"seven decades, nothing hidden: base sufficient", null_of_kind("spectrum"), has_verdict("base_sufficient"),
        ">= 97 %"},
-      {"rates at three temperatures, SNR >= 8: rate and shift named", hiding("warm", true), named_rightly, ">= 95 %"},
-      {"temperatures without effect: base sufficient", hiding("warm", false), has_verdict("base_sufficient"),
-       ">= 97 %"},
+      {"rates at three temperatures, SNR >= 8: rate and shift named", visible_of_kind("warm"), named_rightly,
+       ">= 95 %"},
+      {"temperatures without effect: base sufficient", null_of_kind("warm"), has_verdict("base_sufficient"), ">= 97 %"},
       {"rates at three temperatures: a wrong name", of_kind("warm"), named_wrongly, "0"},
       {"collinear causes: right single name", of_kind("alike"), named_rightly, ""},
       {"pair: reported as a set", of_kind("pair"), right_set, ">= 95 %"},
