@@ -29,10 +29,12 @@ const ringAt = async (on) => {
   return [box.x + box.width / 2, box.y + box.height / 2];
 };
 const frameOf = (on) => on.locator(".film canvas").getAttribute("data-frame").then(Number);
-/** How much of a canvas is painted, and in how many colours. */
+/** How much of a canvas is painted, and in how many colours. A copy is read: Chromium warns of a canvas read twice. */
 const painted = (on, selector) =>
   on.locator(selector).evaluate((canvas) => {
-    const points = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const points = new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
     return { share: points.filter((p) => p !== 0).length / points.length, colours: new Set(points).size };
   });
 
