@@ -11,6 +11,7 @@
 #include "base/result.hpp"
 #include "fabricate/build_sheet_html.hpp"
 #include "fabricate/preview.hpp"
+#include "fabricate/price.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "pattern/coupons.hpp"
 
@@ -87,12 +88,20 @@ Json specimen_json(const Job& job, const PlacedSpecimen& specimen) {
           {"y_mm", specimen.y_mm}};
 }
 
+Json price_json(const Price& price) {
+  Json json;
+  const auto field = [&](const char* name, const auto& value) { json[name] = value; };
+  Price::fields(field, price);
+  return json;
+}
+
 Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
   const JobRequest& request = job.request;
   const Printer& printer = request.printer;
   Json models = Json::array(), specimens = Json::array();
   for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
   for (const PlacedSpecimen& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
+  const Resin resin = resin_of(job, written);
   return {
       {"job", request.name},
       {"seed", request.seed},
@@ -103,12 +112,15 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
       {"grips", request.grips == GripMaterial::pattern ? "pattern" : "rigid"},
       {"cut", request.notch.print_cut ? "printed" : "to be milled"},
       {"trays", job.trays},
+      {"price", price_json(price_of(job))},
+      {"resin_ml", {{"soft", resin.soft_ml}, {"rigid", resin.rigid_ml}}},
       {"models", models},
       {"specimens", specimens}};
 }
 
-/// A sheet without the figures that were counted in the files.
+/// A sheet without the figures that were counted in the files, and what follows from the job and its rates.
 Json plan_of(Json sheet) {
+  for (const char* derived : {"price", "resin_ml"}) sheet.erase(derived);
   for (Json& model : sheet.at("models")) {
     for (const char* counted :
          {"slices", "slice_count", "columns", "rows", "droplets", "rigid_fraction", "rigid_fraction_by_layer"})
@@ -179,6 +191,19 @@ void forget_models(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+Resin resin_of(const Job& job, const std::vector<WrittenModel>& written) {
+  const Printer& printer = job.request.printer;
+  constexpr double kMlPerCubicMm = 1e-3;
+  const double droplet_ml = kMlPerCubicMm * pitch_mm(printer.dpi_x) * pitch_mm(printer.dpi_y) * pitch_mm(printer.dpi_z);
+  Resin resin;
+  for (std::size_t i = 0; i < job.models.size(); ++i) {
+    const double each_ml = droplet_ml * job.models[i].wanted.replicates;
+    resin.soft_ml += each_ml * static_cast<double>(written[i].count.total[static_cast<int>(Droplet::soft)]);
+    resin.rigid_ml += each_ml * static_cast<double>(written[i].count.total[static_cast<int>(Droplet::rigid)]);
+  }
+  return resin;
+}
 
 std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
   return sheet_json(job, written).dump(2) + "\n";

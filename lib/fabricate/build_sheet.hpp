@@ -18,6 +18,12 @@ struct WrittenModel {
   StackCount count;    ///< counted back from the files
 };
 
+/// What the droplets of a job's specimens, as counted in the files, hold: without support and purging.
+struct Resin {
+  double soft_ml = 0.0, rigid_ml = 0.0;
+};
+Resin resin_of(const Job& job, const std::vector<WrittenModel>& written);
+
 /// Called with the finished share (0..1) and the present activity.
 using JobProgress = std::function<void(double, std::string_view)>;
 

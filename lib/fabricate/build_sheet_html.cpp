@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "fabricate/price.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/phase_colours.hpp"
 
@@ -38,15 +39,20 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string settings(const Job& job) {
+std::string settings(const Job& job, const Resin& resin) {
   const JobRequest& request = job.request;
   const Printer& printer = request.printer;
   return fmt::format(
-      "<p>{} specimens of {} models on {} tray(s) of {} x {} mm. Printer {} x {} x {} dpi (x, y, z); slices count from "
+      "<p>{}.</p>\n"
+      "<p>Hours: at {:g} layers a minute, {:g} min a test. Resin in the slices: {:.0f} ml soft, {:.0f} ml rigid; "
+      "support "
+      "and purging come on top.</p>\n"
+      "<p>{} models, trays of {} x {} mm. Printer {} x {} x {} dpi (x, y, z); slices count from "
       "the tray upwards, one PNG each; palette index 0: nothing, 1: soft, 2: rigid. Interface: {}. Grips: {}. Seed "
       "{}.</p>\n",
-      job.specimens.size(), job.models.size(), job.trays, printer.tray_x_mm, printer.tray_y_mm, printer.dpi_x,
-      printer.dpi_y, printer.dpi_z, request.interface == Interface::engineered ? "engineered" : "sharp",
+      in_words(price_of(job)), request.rates.layers_per_minute, request.rates.minutes_per_test, resin.soft_ml,
+      resin.rigid_ml, job.models.size(), printer.tray_x_mm, printer.tray_y_mm, printer.dpi_x, printer.dpi_y,
+      printer.dpi_z, request.interface == Interface::engineered ? "engineered" : "sharp",
       request.grips == GripMaterial::pattern ? "the pattern" : "rigid", request.seed);
 }
 
@@ -151,8 +157,8 @@ std::string instructions(const Job& job) {
 }  // namespace
 
 std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written) {
-  return fmt::format(kHead, escaped(job.request.name)) + settings(job) + models_table(job, written) + trays(job) +
-         specimens_table(job) + instructions(job) + "</body></html>\n";
+  return fmt::format(kHead, escaped(job.request.name)) + settings(job, resin_of(job, written)) +
+         models_table(job, written) + trays(job) + specimens_table(job) + instructions(job) + "</body></html>\n";
 }
 
 }  // namespace nacre::fabricate

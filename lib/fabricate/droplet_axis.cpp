@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "base/result.hpp"
 #include "fabricate/printer.hpp"
@@ -15,6 +16,10 @@ std::int64_t droplets_before(std::int64_t position_um, std::int64_t dpi) {
 }
 
 }  // namespace
+
+int layers_of(double thickness_mm, const Printer& printer) {
+  return std::max(1, static_cast<int>(std::lround(thickness_mm / pitch_mm(printer.dpi_z))));
+}
 
 void check_printer(const Printer& printer) {
   for (const int dpi : {printer.dpi_x, printer.dpi_y, printer.dpi_z}) {

@@ -68,7 +68,7 @@ DropletPlan::DropletPlan(const SpecimenPlan& specimen, const Printer& printer)
       random_(false),
       x_(axis_of(specimen, printer.dpi_x, turned_)),
       y_(axis_of(specimen, printer.dpi_y, !turned_)),
-      layers_(std::max(1, static_cast<int>(std::lround(specimen.thickness_mm / pitch_mm(printer.dpi_z))))) {
+      layers_(layers_of(specimen.thickness_mm, printer)) {
   if (const pattern::Layout* layout = specimen_.design.layout()) {
     printed_layout_ = turned_ ? layout->rotated() : *layout;
   } else {

@@ -29,6 +29,7 @@ struct JobRequest {
   std::string name;  ///< of the batch; labels begin with it. 1 to 40 of A-Z, a-z, 0-9, . _ -
   std::vector<WantedSpecimens> wanted = {};
   Printer printer = {};
+  Rates rates = {};
   Interface interface = Interface::engineered;
   GripMaterial grips = GripMaterial::pattern;
   NotchOptions notch = {};
