@@ -7,7 +7,9 @@
 
 #include <fmt/ranges.h>
 
+#include "base/random.hpp"
 #include "measurement/conditions.hpp"
+#include "pattern/random_pattern.hpp"
 
 namespace nacre::game {
 namespace {
@@ -72,14 +74,22 @@ std::string order_id(int round, const Design& design, TestKind test, const teste
   return fmt::format("r{}/{}/{}{}", round, design.name(), tester::to_string(test), turned ? "/turned" : "");
 }
 
-std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns) {
+std::vector<pattern::Pattern> random_patterns(const Scenario& scenario) {
+  RandomStream random(scenario.seed, "stratified random patterns");
+  return pattern::stratified_patterns(scenario.validation.random_patterns, random);
+}
+
+std::vector<Order> base_orders(const Scenario& scenario) {
   std::vector<Order> orders;
+  for (double fraction : {0.0, 0.5, 1.0})
+    order_both_tests(orders, scenario, 1, pattern::Mixture{fraction}, OrderReason::base);
+  return orders;
+}
+
+std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns) {
+  std::vector<Order> orders = base_orders(scenario);
   std::set<std::string> homogeneous;
-  for (double fraction : {0.0, 0.5, 1.0}) {
-    const Design design = pattern::Mixture{fraction};
-    homogeneous.insert(design.name());
-    order_both_tests(orders, scenario, 1, design, OrderReason::base);
-  }
+  for (const Order& order : orders) homogeneous.insert(order.design.name());
   for (double fraction : scenario.validation.mixtures) {
     const Design design = pattern::Mixture{fraction};
     if (homogeneous.insert(design.name()).second) order_both_tests(orders, scenario, 1, design, OrderReason::mixture);

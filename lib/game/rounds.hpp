@@ -44,8 +44,14 @@ struct DiscriminationTest {
 std::string order_id(int round, const pattern::Design& design, tester::TestKind test,
                      const tester::TestConditions& conditions);
 
-/// Modulus and toughness orders of the pure materials, the scenario's mixtures and the random patterns: measured in
-/// round 1 with the first proposals. A mixture named twice (0.5 is the interface material) is ordered once.
+/// The stratified random patterns that round 1 measures.
+std::vector<pattern::Pattern> random_patterns(const Scenario& scenario);
+
+/// Modulus and toughness orders of the pure materials and the interface material.
+std::vector<Order> base_orders(const Scenario& scenario);
+
+/// base_orders() and those of the scenario's mixtures and the random patterns: measured in round 1 with the first
+/// proposals. A mixture named twice (0.5 is the interface material) is ordered once.
 std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns);
 
 /// Modulus and toughness orders of designs proposed for `round`.

@@ -9,6 +9,7 @@
 #include "base/result.hpp"
 #include "base/shipped_files.hpp"
 #include "base/toml_file.hpp"
+#include "game/budget.hpp"
 #include "game/scenario_keys.hpp"
 
 namespace nacre::game {
@@ -77,6 +78,18 @@ std::string place_of(std::string_view source, const toml::table& entries,
   return std::string(source);
 }
 
+/// A budget must allow what is always measured.
+void check_budget(std::string_view source, const toml::table& entries, const Scenario& scenario) {
+  const auto expect = [&](std::string_view key, int value, int least, std::string_view what) {
+    if (value == 0 || value >= least) return;
+    throw InputError::format("{}: {} = {}: expected 0, or at least {}: base materials and one design {}",
+                             place_of(source, entries, {key}), key, value, least, what);
+  };
+  if (scenario.rounds < 1) return;
+  expect("budget.specimens_per_round", scenario.budget.specimens_per_round, least_specimens(scenario, 1), "in round 1");
+  expect("budget.total", scenario.budget.total, least_specimens_of_all(scenario), "a round");
+}
+
 /// Checks that concern several keys.
 void check_together(std::string_view source, const toml::table& entries, const Scenario& scenario) {
   const ValidationSettings& validation = scenario.validation;
@@ -91,6 +104,7 @@ void check_together(std::string_view source, const toml::table& entries, const S
                              place_of(source, entries, {"proposal.seeds", "proposal.samples"}), proposal.seeds,
                              proposal.samples);
   }
+  check_budget(source, entries, scenario);
 }
 
 /// The document and its scenario.

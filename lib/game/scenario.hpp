@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tester/names.hpp"
+#include "thesis/laboratory_rates.hpp"
 
 namespace nacre::game {
 
@@ -50,9 +51,19 @@ struct DiagnosisStageSettings {
   bool operator==(const DiagnosisStageSettings&) const = default;
 };
 
+/// How many specimens a laboratory can make; 0: no limit. The family stage comes on top.
+struct BudgetSettings {
+  int specimens_per_round = 0;
+  int total = 0;  ///< of all rounds
+  bool operator==(const BudgetSettings&) const = default;
+};
+
 struct LaboratorySettings {
   bool virtual_lab = true;  ///< false: a person measures, `nacre inject` brings the results
   std::string file;  ///< LAB.toml of the virtual laboratory, relative to the scenario; empty: drawn from the seed
+  double layers_per_minute = thesis::kLayersPerMinute;  ///< of the printer
+  double minutes_per_test = thesis::kMinutesPerTest;
+  double tray_x_mm = thesis::kTrayX, tray_y_mm = thesis::kTrayY;  ///< printable part of the tray
   bool operator==(const LaboratorySettings&) const = default;
 };
 
@@ -93,6 +104,7 @@ struct Scenario {
   ValidationSettings validation;
   DiagnosisStageSettings diagnosis;
   FamilySettings families;
+  BudgetSettings budget;
   LaboratorySettings laboratory;
   /// The nodes of this scenario, in start order.
   std::vector<std::string> nodes() const;

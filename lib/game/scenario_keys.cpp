@@ -63,6 +63,21 @@ ScenarioKey whole_number(std::string_view table, std::string_view name, std::str
           [=](const Scenario& scenario) { return fmt::format("{}", value_in(access, scenario)); }};
 }
 
+ScenarioKey number(std::string_view table, std::string_view name, std::string_view meaning, double minimum,
+                   double maximum, Access<double> access) {
+  return {table,
+          name,
+          meaning,
+          fmt::format("a number from {} to {}", minimum, maximum),
+          [=](const toml::node& node, Scenario& scenario) {
+            const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+            if (!value || !(*value >= minimum && *value <= maximum)) return false;
+            access(scenario) = *value;
+            return true;
+          },
+          [=](const Scenario& scenario) { return toml_float(value_in(access, scenario)); }};
+}
+
 ScenarioKey flag(std::string_view table, std::string_view name, std::string_view meaning, Access<bool> access) {
   return {table,
           name,
@@ -285,6 +300,7 @@ std::vector<ScenarioKey> make_validation_keys() {
 
 std::vector<ScenarioKey> make_remaining_keys() {
   constexpr auto diagnosis = &Scenario::diagnosis;
+  constexpr auto budget = &Scenario::budget;
   constexpr auto laboratory = &Scenario::laboratory;
   return {
       flag("diagnosis", "enabled", "diagnose after each round which cause explains the prediction errors",
@@ -294,10 +310,23 @@ std::vector<ScenarioKey> make_remaining_keys() {
                         20, at(diagnosis, &DiagnosisStageSettings::discrimination_orders)),
       whole_number<int>("diagnosis", "bootstraps", "bootstrap resamples for the decision threshold", 1000, 1'000'000,
                         at(diagnosis, &DiagnosisStageSettings::bootstraps)),
+      whole_number<int>("budget", "specimens_per_round",
+                        "most specimens a round orders: fewer replicates, then fewer designs; 0: no limit", 0,
+                        1'000'000, at(budget, &BudgetSettings::specimens_per_round)),
+      whole_number<int>("budget", "total", "most specimens that all rounds order together; 0: no limit", 0, 1'000'000,
+                        at(budget, &BudgetSettings::total)),
       flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",
            at(laboratory, &LaboratorySettings::virtual_lab)),
       file_name("laboratory", "file", "LAB.toml of the virtual laboratory; \"\": its truth is drawn from the seed",
                 at(laboratory, &LaboratorySettings::file)),
+      number("laboratory", "layers_per_minute", "layers that the printer makes in a minute, a full tray at a time",
+             0.001, 1000.0, at(laboratory, &LaboratorySettings::layers_per_minute)),
+      number("laboratory", "minutes_per_test", "time of one specimen at the testing machine, measuring it included",
+             0.01, 10'000.0, at(laboratory, &LaboratorySettings::minutes_per_test)),
+      number("laboratory", "tray_x_mm", "printable part of the printer's tray", 175.0, 10'000.0,
+             at(laboratory, &LaboratorySettings::tray_x_mm)),
+      number("laboratory", "tray_y_mm", "the same, front to back", 175.0, 10'000.0,
+             at(laboratory, &LaboratorySettings::tray_y_mm)),
   };
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "explore/merge.hpp"
+#include "game/budget.hpp"
 #include "game/model.hpp"
 #include "proposal_agent/search_work.hpp"
 #include "proposal_agent/selection_work.hpp"
@@ -188,7 +189,7 @@ void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
        .kind = "select",
        .spec = selection_spec({.model = round_->model,
                                .gamut = round_->realisations->best(),
-                               .count = scenario_.proposal.designs,
+                               .count = game::within_budget(scenario_, round_->model.round + 1).proposal.designs,
                                .simulations = simulations() + round_->realisations->simulated()})});
 }
 

@@ -6,17 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "base/random.hpp"
+#include "game/budget.hpp"
 #include "game/standings.hpp"
-#include "pattern/random_pattern.hpp"
 
 namespace nacre::validation_agent {
 namespace {
-
-std::vector<pattern::Pattern> draw_random_patterns(const game::Scenario& scenario) {
-  RandomStream random(scenario.seed, "stratified random patterns");
-  return pattern::stratified_patterns(scenario.validation.random_patterns, random);
-}
 
 /// A test that was made, or is to be.
 std::string test_in_words(const pattern::Design& design, tester::TestKind test,
@@ -28,11 +22,23 @@ std::string test_in_words(const pattern::Design& design, tester::TestKind test,
 }  // namespace
 
 OrderDesk::OrderDesk(const game::Scenario& scenario)
-    : scenario_(scenario), random_patterns_(draw_random_patterns(scenario)) {}
+    : scenario_(scenario), random_patterns_(game::random_patterns(game::within_budget(scenario, 1))) {}
+
+game::Scenario OrderDesk::allowed() const { return game::within_budget(scenario_, round_); }
+
+std::vector<game::Order> OrderDesk::open_game() {
+  round_ = 1;
+  if (scenario_.laboratory.virtual_lab || scenario_.rounds < 1) return {};
+  return place(game::base_orders(allowed()));
+}
 
 std::vector<game::Order> OrderDesk::place(std::vector<game::Order> orders) {
   orders_.insert(orders_.end(), orders.begin(), orders.end());
   return orders;
+}
+
+bool OrderDesk::is_placed(const std::string& order_id) const {
+  return std::ranges::find(orders_, order_id, &game::Order::id) != orders_.end();
 }
 
 bool OrderDesk::refused(const pattern::Design& design) const {
@@ -49,13 +55,18 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
     std::move(more.begin(), more.end(), std::back_inserter(orders));
   };
   if (round == 1) {
-    add(game::opening_orders(scenario_, random_patterns_));
-    if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, scenario_.validation.replicates);
+    add(game::opening_orders(allowed(), random_patterns_));
+    std::erase_if(orders, [&](const game::Order& each) { return is_placed(each.id); });
+    if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, allowed().validation.replicates);
   }
   add(orders_for(approved_of(designs)));
   add(take_own(designs, orders));
   std::erase_if(experiments, [&](const game::DiscriminationTest& each) { return refused(each.design); });
-  if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
+  if (scenario_.budget != game::BudgetSettings{}) {
+    for (game::DiscriminationTest& each : experiments)
+      each.replicates = std::min(each.replicates, allowed().validation.replicates);
+  }
+  if (scenario_.diagnosis.enabled) add(game::discrimination_orders(allowed(), round, experiments));
   return place(std::move(orders));
 }
 
@@ -74,7 +85,7 @@ std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>&
   std::vector<game::Order> orders;
   for (const pattern::Design& each : std::exchange(own_, {})) {
     if (std::ranges::count(proposed, each) > 0 || game::are_both_ordered(opened, each)) continue;
-    std::ranges::move(game::person_orders(scenario_, round_, each), std::back_inserter(orders));
+    std::ranges::move(game::person_orders(allowed(), round_, each), std::back_inserter(orders));
   }
   return orders;
 }
@@ -95,8 +106,8 @@ std::vector<pattern::Design> OrderDesk::approved_of(const std::vector<pattern::D
 }
 
 std::vector<game::Order> OrderDesk::orders_for(std::span<const pattern::Design> designs) const {
-  return is_family_round_ ? game::family_orders(scenario_, round_, designs)
-                          : game::proposal_orders(scenario_, round_, designs);
+  return is_family_round_ ? game::family_orders(allowed(), round_, designs)
+                          : game::proposal_orders(allowed(), round_, designs);
 }
 
 Result<std::vector<game::Order>> OrderDesk::take_approval(int proposal_round, const pattern::Design& design,
@@ -120,7 +131,7 @@ Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& desig
   if (game::are_both_ordered(orders_, design) || queued) return fail("{} is ordered already", design.name());
   if (std::find(waiting_.begin(), waiting_.end(), design) != waiting_.end())
     return fail("{} is proposed and waits for its approval", design.name());
-  if (now) return place(game::person_orders(scenario_, round_, design));
+  if (now) return place(game::person_orders(allowed(), round_, design));
   own_.push_back(design);
   return std::vector<game::Order>{};
 }

@@ -28,6 +28,10 @@ class OrderDesk {
  public:
   explicit OrderDesk(const game::Scenario& scenario);
 
+  /// The orders that wait for no search: a person can print and test the base materials of round 1 while the first one
+  /// goes on. None for the virtual laboratory, whose tests would take the search's cores.
+  std::vector<game::Order> open_game();
+
   /// Opens a round: `designs` proposed for it, `experiments` that the diagnosis wants. Returns the orders that can go
   /// out at once.
   std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
@@ -76,6 +80,9 @@ class OrderDesk {
   std::vector<pattern::Design> approved_of(const std::vector<pattern::Design>& designs);
   std::vector<game::Order> orders_for(std::span<const pattern::Design> designs) const;
   bool refused(const pattern::Design& design) const;
+  bool is_placed(const std::string& order_id) const;
+  /// The scenario as the budget allows the present round.
+  game::Scenario allowed() const;
 
   game::Scenario scenario_;
   std::vector<pattern::Pattern> random_patterns_;

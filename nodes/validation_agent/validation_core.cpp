@@ -30,7 +30,7 @@ void ValidationCore::refuse(const std::string& why) {
 
 std::vector<runtime::Message> ValidationCore::open(std::string_view channel) const {
   std::vector<runtime::Message> messages;
-  if (phase_ != Phase::measuring) return messages;
+  if (phase_ != Phase::measuring && round_ > 0) return messages;
   if (channel == "TEST_ORDER")
     for (const game::Order& order : desk_.open(book_))
       messages.push_back({"TEST_ORDER", wire::write(message_of(order))});

@@ -8,6 +8,7 @@
 
 #include "base/counted.hpp"
 #include "base/random.hpp"
+#include "game/budget.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
 #include "runtime/round_history.hpp"
@@ -25,6 +26,7 @@ void ValidationCore::begin_round(int round) {
   before_ = after_ = out_of_sample_ = {};
   simulations_ = 0;
   if (round == 0) {
+    send_orders(desk_.open_game());
     calibration_set_ = start_.base_materials;
     if (calibration_set_.empty()) return begin_unfitted();
     return begin_calibration(model_);
@@ -64,6 +66,8 @@ void ValidationCore::order() {
   std::vector<pattern::Design> designs;
   for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs) designs.push_back(proposed.design);
   phase_ = Phase::measuring;
+  if (const std::string given_up = game::budget_in_words(scenario_, round_); !given_up.empty())
+    say(LogLevel::info, given_up);
   send_orders(desk_.open_round(round_, std::move(designs), experiments()));
   measure_on();
 }
@@ -84,7 +88,8 @@ wire::TestOrder ValidationCore::message_of(const game::Order& order) const {
 void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
   for (const game::Order& order : orders) send("TEST_ORDER", message_of(order));
   if (!orders.empty())
-    say(LogLevel::info, fmt::format("round {}: {} for the laboratory", round_, counted(std::ssize(orders), "order")));
+    say(LogLevel::info,
+        fmt::format("round {}: {} for the laboratory", orders.front().round, counted(std::ssize(orders), "order")));
 }
 
 void ValidationCore::measure_on() {

@@ -55,7 +55,7 @@ fs::path laboratory_game(const fs::path& folder) {
 
 /// One proposed design is accepted, the other refused.
 void decide(PersonsGame& person) {
-  person.wait_for("orders", [&] { return !person.orders().empty(); });
+  person.wait_for("orders of round 1", [&] { return !person.rounds().empty(); });
   const std::size_t before = person.orders().size();
   const auto designs = person.proposals().at(0).designs;
   person.decide({"approve", designs.at(0).design.name(), "--why", "looks printable"});

@@ -46,7 +46,8 @@ Scenario with_nothing_at_its_default() {
   s.validation = {1, 2, 1, 4, 5, 6, {0.0, 1.0 / 3.0, 1.0}, true};
   s.diagnosis = {false, 1, 1234};
   s.families = {true, 3, 17, 5, 6, 7};
-  s.laboratory = {false, "lab.toml"};
+  s.budget = {1000, 5000};
+  s.laboratory = {false, "lab.toml", 2.5, 7.0, 490.0, 390.0};
   return s;
 }
 
