@@ -10,9 +10,11 @@
 #include "dashboard/families_view.hpp"
 #include "dashboard/gamut_view.hpp"
 #include "dashboard/laboratory_view.hpp"
+#include "dashboard/next_view.hpp"
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/rounds_view.hpp"
 #include "dashboard/run_view.hpp"
+#include "game/budget.hpp"
 #include "game/starting_point.hpp"
 #include "run/measured_patterns.hpp"
 #include "runtime/bus.hpp"
@@ -109,6 +111,7 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
                                                       {"/api/simulation", &Dashboard::simulation},
                                                       {"/api/laboratory", &Dashboard::laboratory},
                                                       {"/api/diagnosis", &Dashboard::diagnosis},
+                                                      {"/api/next", &Dashboard::next},
                                                       {"/api/maps", &Dashboard::maps},
                                                       {"/api/map", &Dashboard::map},
                                                       {"/api/between", &Dashboard::between},
@@ -150,7 +153,7 @@ Response Dashboard::run(const Request&) {
                              .approval = s.validation.approval,
                              .virtual_lab = s.laboratory.virtual_lab,
                              .diagnosis = s.diagnosis.enabled,
-                             .replicates = s.validation.replicates,
+                             .replicates = game::within_budget(s, 1).validation.replicates,
                              .started = settings_.started,
                              .nacre_version = settings_.nacre_version,
                              .commit = settings_.commit,
@@ -296,6 +299,11 @@ Response Dashboard::laboratory(const Request&) {
     laboratory_fresh_until_us_ = now_us + kFreshPerCost * (now_us - begun_us);
   }
   return {.body = laboratory_, .headers = {}};
+}
+
+Response Dashboard::next(const Request&) {
+  const std::lock_guard lock(desk_mutex_);
+  return row_response(next_round_row(settings_.scenario, *run_.record(), desk_.laboratory()->facts));
 }
 
 Response Dashboard::diagnosis(const Request& request) {

@@ -50,6 +50,7 @@ class Dashboard {
   Response simulation(const Request&);
   Response laboratory(const Request&);
   Response diagnosis(const Request&);
+  Response next(const Request&);
   Response maps(const Request&);
   Response map(const Request&);
   Response between(const Request&);

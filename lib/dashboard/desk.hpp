@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dashboard/live_search.hpp"
+#include "dashboard/round_price.hpp"
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "measurement/specimen_record.hpp"
@@ -51,6 +52,7 @@ struct SpecimenReview {
 struct Laboratory {
   game::LaboratoryFacts facts;
   std::optional<wire::Proposal> open_proposal;
+  std::optional<RoundPrice> price;  ///< of the round that is measured, or will be next; nothing once the game is over
 };
 
 /// The last STATUS of a node.

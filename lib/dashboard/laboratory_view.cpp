@@ -6,6 +6,7 @@ LaboratoryRow laboratory_row(const Laboratory& laboratory) {
   const game::LaboratoryFacts& facts = laboratory.facts;
   LaboratoryRow row;
   if (laboratory.open_proposal) row.proposal = OpenProposalRow{*laboratory.open_proposal};
+  row.price = laboratory.price;
   row.designs = game::design_states(facts);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   for (std::size_t i = 0; i < facts.orders.size(); ++i) row.orders.push_back({facts.orders[i], progress[i]});

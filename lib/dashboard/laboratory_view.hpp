@@ -100,10 +100,12 @@ struct OpenProposalRow {
   }
 };
 
-/// The newest proposal, designs with their state, orders, specimens, groups of replicates with proposed outliers.
+/// The newest proposal, what the round costs, designs with their state, orders, specimens, groups of replicates with
+/// proposed outliers.
 struct LaboratoryRow {
   static constexpr std::string_view kPageName = "Laboratory";
   std::optional<OpenProposalRow> proposal;
+  std::optional<RoundPrice> price;
   std::vector<game::DesignState> designs;
   std::vector<OrderRow> orders;
   std::vector<LaboratorySpecimenRow> specimens;
@@ -111,6 +113,7 @@ struct LaboratoryRow {
 
   static void fields(auto& field, auto& m) {
     field("proposal", m.proposal);
+    field("price", m.price);
     field("designs", m.designs);
     field("orders", m.orders);
     field("specimens", m.specimens);

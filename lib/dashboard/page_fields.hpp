@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "fabricate/price.hpp"
 #include "game/design_states.hpp"
+#include "game/round_growth.hpp"
 #include "sysid/errors.hpp"
 #include "wire/convert.hpp"
 #include "wire/field_json.hpp"
@@ -24,6 +26,8 @@ constexpr std::string_view page_name(const wire::RoundSummary*) { return "Summar
 constexpr std::string_view page_name(const wire::ProposedDesign*) { return "Proposed"; }
 constexpr std::string_view page_name(const wire::DiagnosedGain*) { return "Gain"; }
 constexpr std::string_view page_name(const game::DesignState*) { return "DesignState"; }
+constexpr std::string_view page_name(const fabricate::Price*) { return "Price"; }
+constexpr std::string_view page_name(const game::Growth*) { return "Growth"; }
 constexpr std::string_view page_name(const wire::HiddenCause*) { return "HiddenCause"; }
 
 /// The interface of a struct.

@@ -4,6 +4,7 @@
 #include "dashboard/diagnosis_view.hpp"
 #include "dashboard/families_view.hpp"
 #include "dashboard/laboratory_view.hpp"
+#include "dashboard/next_view.hpp"
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/page_fields.hpp"
 #include "dashboard/rounds_view.hpp"
@@ -20,6 +21,7 @@ std::string page_types() {
   types.type_of<RoundsRow>();
   types.type_of<DesignRow>();
   types.type_of<LaboratoryRow>();
+  types.type_of<NextRoundRow>();
   types.type_of<DiagnosisRow>();
   types.type_of<FamiliesRow>();
   return "// The server's responses, SI units (docs/FORMATS.md, \"Dashboard\"). Written by nacre_page_types from the "

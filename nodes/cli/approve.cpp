@@ -210,6 +210,7 @@ int approve(const ApproveOptions& options) {
   }
   if (options.designs.empty() && !options.all) {
     list_designs(laboratory, *proposal, waits_for_approval(run, laboratory));
+    fmt::print("{}", price_line(run, laboratory));
     return 0;
   }
   return decide(options, run, laboratory.facts, *proposal);

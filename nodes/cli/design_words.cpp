@@ -15,6 +15,11 @@ std::string_view stage_in_words(game::DesignStage stage, bool waits_for_approval
   return waits_for_approval ? "waits for approval" : "proposed";
 }
 
+std::string price_line(const RunAccess& run, const LaboratoryView& view) {
+  const auto price = price_of_round(run, view);
+  return !price || run.scenario.laboratory.virtual_lab ? "" : in_words(*price) + "\n";
+}
+
 std::string waiting_in_words(int designs) {
   return fmt::format("waits for you: {} to approve (nacre approve DESIGN, or --all; to refuse: --reject --why REASON)",
                      counted(designs, "design"));

@@ -51,6 +51,7 @@ int show_designs(const DesignsOptions& options) {
     print_json(wire::json_of(states));
   } else {
     print_designs(states, waits_for_approval(run, view));
+    fmt::print("{}", price_line(run, view));
   }
   if (states.empty()) remark("there is no design yet");
   return states.empty() ? 1 : 0;

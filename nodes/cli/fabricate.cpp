@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "base/counted.hpp"
 #include "base/files.hpp"
 #include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "fabricate/build_sheet.hpp"
+#include "fabricate/price.hpp"
 #include "laboratory_view.hpp"
 #include "measurement/limits.hpp"
 #include "output.hpp"
@@ -45,7 +45,7 @@ struct FabricateOptions {
   std::string grips = "pattern";
   bool print_cut = false;
   std::vector<int> dpi = {300, 600, 800};
-  std::vector<double> tray_mm = {255.0, 252.0};
+  std::vector<double> tray_mm;  ///< empty: the default, or that of the game
   double gap_mm = 5.0;
   std::uint64_t seed = 1;
   bool replace = false;
@@ -116,15 +116,7 @@ std::vector<WantedSpecimens> wanted_by_game(const LaboratoryView& view) {
   for (const OrderState& order : view.orders) {
     const int missing = order.order.replicates - std::max(order.arrived, order.printed);
     if (order.complete || missing <= 0) continue;
-    wanted.push_back({.design = order.order.design,
-                      .test = order.order.test,
-                      .orientation_deg = order.order.conditions.orientation_deg,
-                      .thickness_mm = order.order.conditions.thickness_mm,
-                      .strain_rate_per_s = order.order.conditions.strain_rate_per_s,
-                      .loading = order.order.loading,
-                      .replicates = missing,
-                      .order_id = order.order.id,
-                      .reason = std::string(game::to_string(order.order.reason))});
+    wanted.push_back(dashboard::wanted(order.order, missing));
   }
   return wanted;
 }
@@ -157,13 +149,22 @@ fabricate::JobRequest request_of(const FabricateOptions& options) {
                      ? without_last_slash(std::filesystem::weakly_canonical(options.out)).filename().string()
                      : options.batch;
   if (options.orders) {
-    const LaboratoryView view = view_laboratory(open_run(options.run));
+    const RunAccess run = open_run(options.run);
+    const LaboratoryView view = view_laboratory(run);
+    request.rates = dashboard::rates_of(run.scenario);
+    request.printer = dashboard::printer_of(run.scenario);
     request.wanted = wanted_by_game(view);
     request.name = free_batch(request.name, view.facts);
   } else {
     request.wanted = wanted_by_name(options);
   }
-  request.printer = {options.dpi[0], options.dpi[1], options.dpi[2], options.tray_mm[0], options.tray_mm[1]};
+  if (!options.tray_mm.empty()) {
+    request.printer.tray_x_mm = options.tray_mm[0];
+    request.printer.tray_y_mm = options.tray_mm[1];
+  }
+  request.printer.dpi_x = options.dpi[0];
+  request.printer.dpi_y = options.dpi[1];
+  request.printer.dpi_z = options.dpi[2];
   request.interface = options.interface == "sharp" ? fabricate::Interface::sharp : fabricate::Interface::engineered;
   request.grips = options.grips == "rigid" ? fabricate::GripMaterial::rigid : fabricate::GripMaterial::pattern;
   request.notch.print_cut = options.print_cut;
@@ -181,8 +182,7 @@ void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenMo
                count.layers, count.columns, count.rows, fabricate::rigid_fraction(count.total),
                model.wanted.design.rigid_fraction(), model.wanted.replicates);
   }
-  fmt::print("{} on {}: {}/build_sheet.html\n", counted(static_cast<std::int64_t>(job.specimens.size()), "specimen"),
-             counted(job.trays, "tray"), folder);
+  fmt::print("{}\n{}/build_sheet.html\n", fabricate::in_words(fabricate::price_of(job)), folder);
 }
 
 int fabricate_job(const FabricateOptions& options) {
@@ -264,10 +264,11 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->expected(3)
       ->capture_default_str();
-  command.add_option("--tray-mm", options->tray_mm, "Printable part of the tray, x, y")
+  command
+      .add_option("--tray-mm", options->tray_mm,
+                  "Printable part of the tray, x, y; default: 255,252, with --orders that of the scenario")
       ->delimiter(',')
-      ->expected(2)
-      ->capture_default_str();
+      ->expected(2);
   command.add_option("--gap-mm", options->gap_mm, "Gap between specimens on the tray")->capture_default_str();
   add_seed(command, options->seed, "Seed of the mixtures' droplets and of the print order")->capture_default_str();
   command.add_flag("--replace", options->replace, "Delete another job in the folder first, filled-in sheets included");

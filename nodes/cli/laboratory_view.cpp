@@ -7,6 +7,7 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "game/budget.hpp"
 #include "output.hpp"
 #include "specimen_messages.hpp"
 #include "wire/convert.hpp"
@@ -140,8 +141,9 @@ void LaboratoryReader::read_journal(const std::function<void(const std::string& 
 LaboratoryView LaboratoryReader::make_view() const {
   LaboratoryView view = known_;
   game::LaboratoryFacts& facts = view.facts;
-  facts.replicates = run_.scenario.validation.replicates;
+  facts.replicates = game::within_budget(run_.scenario, 1).validation.replicates;
   facts.enough_valid = run_.scenario.validation.enough_valid;
+  view.round = std::max(1, last_round_ + 1);
   // Later ones may be there: an agent that begins anew without its journal is offered all of them again.
   if (const auto later = proposals_.upper_bound(last_round_); later != proposals_.begin())
     view.open_proposal = std::prev(later)->second;
@@ -161,6 +163,11 @@ std::shared_ptr<const LaboratoryView> LaboratoryReader::view(
   if (view_ && printed == printed_) return view_;
   printed_ = std::move(printed);
   return view_ = std::make_shared<const LaboratoryView>(make_view());
+}
+
+std::optional<dashboard::RoundPrice> price_of_round(const RunAccess& run, const LaboratoryView& view) {
+  if (view.is_over || view.round > run.scenario.rounds) return std::nullopt;
+  return dashboard::price_of_round(run.scenario, view.facts, view.round);
 }
 
 LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(const std::string& payload)>& measured) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "dashboard/round_price.hpp"
 #include "game/design_states.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
@@ -31,6 +32,7 @@ struct LaboratoryView {
   std::vector<OrderState> orders;
   std::optional<wire::Proposal> open_proposal;  ///< that of the last round that is over: decided on now
   std::optional<material::ParameterSet> model;  ///< that the validation agent adopted last
+  int round = 1;                                ///< that is measured, or will be next
   bool is_over = false;                         ///< the last round is closed, and with it the family stage
 };
 
@@ -56,6 +58,9 @@ class LaboratoryReader {
   std::map<int, wire::Proposal> proposals_;
   int last_round_ = -1;
 };
+
+/// What the round at hand asks of the laboratory; nothing once the game is over or where no round is measured.
+std::optional<dashboard::RoundPrice> price_of_round(const RunAccess& run, const LaboratoryView& view);
 
 /// The laboratory looked at once.
 LaboratoryView view_laboratory(const RunAccess& run,

@@ -1,10 +1,12 @@
 // Part of the command line (command.hpp): nacre launch, which plays a game, and nacre record, its recorder.
 
+#include <cstdio>
 #include <string>
 
 #include "analyser/analyser_core.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "dashboard/round_price.hpp"
 #include "game/reference_tables.hpp"
 #include "game/scenario.hpp"
 #include "game/starting_point.hpp"
@@ -60,6 +62,15 @@ void warn_about_units(const game::Scenario& scenario) {
   }
 }
 
+/// What a game with people will ask of them, before it begins.
+void say_price(const game::Scenario& scenario) {
+  if (scenario.laboratory.virtual_lab || scenario.rounds < 1) return;
+  fmt::print("{}\n", in_words(dashboard::price_of_round(scenario, {}, 1)));
+  if (scenario.rounds > 1)
+    fmt::print("each round after it: {}\n", in_words(dashboard::price_of_round(scenario, {}, 2).all));
+  std::fflush(stdout);
+}
+
 /// Throws InputError for options that do not go together.
 void check_together(const runtime::LaunchOptions& options) {
   if (options.scenario.empty() == options.resume.empty()) {
@@ -94,6 +105,7 @@ int play(const runtime::LaunchOptions& typed) {
     check_inputs(scenario);
     warn_about_inks(scenario);
     warn_about_units(scenario);
+    say_price(scenario);
   }
   return runtime::launch(options);
 }

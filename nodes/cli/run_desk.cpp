@@ -62,8 +62,8 @@ RunAccess RunDesk::now() const {
 std::shared_ptr<const dashboard::Laboratory> RunDesk::laboratory() {
   const auto view = reader_.view();
   if (read_ != view)
-    laboratory_ =
-        std::make_shared<const dashboard::Laboratory>(dashboard::Laboratory{view->facts, view->open_proposal});
+    laboratory_ = std::make_shared<const dashboard::Laboratory>(
+        dashboard::Laboratory{view->facts, view->open_proposal, price_of_round(run_, *view)});
   read_ = view;
   return laboratory_;
 }

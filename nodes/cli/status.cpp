@@ -4,12 +4,17 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "dashboard/next_view.hpp"
+#include "design_words.hpp"
+#include "laboratory_view.hpp"
 #include "output.hpp"
+#include "run/run.hpp"
 #include "run_access.hpp"
 #include "runtime/live_display.hpp"
 #include "runtime/terminal.hpp"
@@ -76,15 +81,38 @@ void print_table(const RunAccess& run, const Statuses& statuses) {
   }
 }
 
+/// What rounds bring and cost.
+struct Outlook {
+  dashboard::NextRoundRow next;
+  std::string price_line;
+};
+
+/// As the run's database and journals tell; nothing where they cannot be read, which is said.
+std::optional<Outlook> outlook_of(const RunAccess& run) {
+  try {
+    const LaboratoryView view = view_laboratory(run);
+    return Outlook{dashboard::next_round_row(run.scenario, *run::Run(run.folder).record(), view.facts),
+                   price_line(run, view)};
+  } catch (const InputError& error) {
+    warn(error.what());
+    return std::nullopt;
+  }
+}
+
 int show_status(const StatusOptions& options) {
   const RunAccess run = open_run(options.run);
   const Statuses statuses = collect(run, options.seconds);
+  const std::optional<Outlook> outlook = outlook_of(run);
   if (options.json) {
     nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
     for (const auto& [node, status] : statuses) nodes.push_back(to_json(node, status));
-    print_json({{"run", run.manifest.run_id}, {"port", run.manifest.port}, {"nodes", nodes}});
+    print_json({{"run", run.manifest.run_id},
+                {"port", run.manifest.port},
+                {"nodes", nodes},
+                {"next", outlook ? wire::json_of(outlook->next) : nullptr}});
   } else {
     print_table(run, statuses);
+    if (outlook) fmt::print("{}\n{}", next_in_words(outlook->next), outlook->price_line);
   }
   if (statuses.empty())
     remark(

@@ -54,6 +54,16 @@ test("a live game is shown and followed", async () => {
   await view(page, "game");
 });
 
+test("the laboratory's round has its price before anything is approved", async () => {
+  const other = await visitWith(`${live.url}#laboratory`, { "/api/run": (run) => ({ ...run, virtual_lab: false }) });
+  const price = await other.locator(".price").innerText();
+  // Nine designs in two tests, twice: 18 notched specimens, eight to a tray, and 18 bars, ten to a tray.
+  const words = "36 specimens on 5 trays, 505 slices, about 5\\.6 h of printing, 6\\.0 h of testing, \\d+ ml of resin";
+  assert.match(price, new RegExp(`^Round 1(, as expected)?: ${words}[;.]`));
+  await photograph(other, "price");
+  await leave(other);
+});
+
 test("a point is clicked and its film plays", async () => {
   await page.locator(".catcher").focus();
   await pointWithKeys(page);
@@ -372,6 +382,19 @@ test("a finished run is the same page, in the dark", async () => {
   assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "light");
   assert.deepEqual(dark.troubles, []);
   await leave(dark);
+  await finished.close();
+});
+
+test("the page says what another round is expected to bring, and its price", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(finished.url);
+  const said = await on.locator(".next-round").innerText();
+  const growth = "\\d[.\\d]* ± \\d[.\\d]*";
+  const expected = `round 2 is expected to bring ${growth}, .* % of .* \\(90 %: .* to .*; by the errors of the fit\\)`;
+  const price = "for \\d+ specimens on \\d trays?, \\d+ slices, about [.\\d]+ h of printing, [.\\d]+ h of testing, \\d+ ml";
+  assert.match(said, new RegExp(`^Round 1 brought ${growth} GPa MPa of measured hypervolume; ${expected}, ${price} of resin\\.$`));
+  await photograph(on, "next-round", true);
+  await leave(on);
   await finished.close();
 });
 

@@ -8,6 +8,7 @@ import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel } from "./
 import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
 import { figure, GPA, MPA, percent, withError } from "./numbers";
+import { WorthOfNext } from "./next_round";
 import { NoSuchRound, Problem, Table } from "./parts";
 import { useGamuts } from "./reading";
 import { addressOf, type Looking } from "./route";
@@ -257,6 +258,7 @@ export function Game({
         </DesignPanel>
       </div>
       <section class="panel">
+        <WorthOfNext rounds={rounds} />
         <RoundTable rounds={rounds} />
       </section>
       <section class="panel">

@@ -174,6 +174,7 @@ export function LaboratoryView({
           refresh={refresh}
           playing={playing}
           approval={info.approval}
+          hasPrice={!info.virtual_lab}
           isOver={isOver}
         />
       )}

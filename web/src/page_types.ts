@@ -217,6 +217,24 @@ export interface OpenProposal {
   designs: Proposed[];
 }
 
+export interface Price {
+  specimens: number;
+  trays: number;
+  slices: number;
+  printing_h: number;
+  testing_h: number;
+  resin_ml: number;
+}
+
+export interface RoundPrice {
+  round: number;
+  is_expected: boolean;
+  all: Price;
+  left: Price;
+  budget: string;
+  sentence: string;
+}
+
 export interface DesignState {
   design: string;
   state: string;
@@ -291,10 +309,32 @@ export interface Group {
 
 export interface Laboratory {
   proposal: OpenProposal | null;
+  price: RoundPrice | null;
   designs: DesignState[];
   orders: Order[];
   specimens: LaboratorySpecimen[];
   groups: Group[];
+}
+
+export interface Growth {
+  mean_gpa_mpa: number;
+  error_gpa_mpa: number;
+  interval90_gpa_mpa: [number, number];
+}
+
+export interface Brought {
+  round: number;
+  growth: Growth;
+}
+
+export interface NextRound {
+  round: number;
+  hypervolume_gpa_mpa: number;
+  brought: Brought[];
+  expected: Growth | null;
+  is_scatter_of_fit: boolean;
+  sentence: string;
+  price: Price;
 }
 
 export interface Effect {

@@ -2,6 +2,7 @@
 
 import type { Family, Laboratory, Proposed } from "./api";
 import { gpa, MPA, mpa, sentence, withError } from "./numbers";
+import { PriceOfRound } from "./next_round";
 import { DesignChip, MaterialKey, Name, Notice, Reason, Unit, useDraft } from "./parts";
 import { useSubmit } from "./submit";
 
@@ -62,6 +63,7 @@ export function Proposals({
   refresh,
   playing,
   approval,
+  hasPrice,
   isOver,
 }: {
   laboratory: Laboratory;
@@ -70,6 +72,8 @@ export function Proposals({
   refresh: () => Promise<void>;
   playing: boolean;
   approval: boolean;
+  /** People print and test what it proposes. */
+  hasPrice: boolean;
   isOver: boolean;
 }) {
   const [why, setWhy] = useDraft("approval/why", "");
@@ -84,6 +88,7 @@ export function Proposals({
   };
   const approveOrReject = (design: string, approved: boolean) =>
     approve(design, offer!.round, approved, `${design} is ${approved ? "approved" : "rejected"}.`);
+  const price = hasPrice && <PriceOfRound price={laboratory.price} />;
   const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
     return (
@@ -92,6 +97,7 @@ export function Proposals({
         <p class="awaited">
           {isOver ? "Nothing was proposed." : "There is no proposal yet: the first one follows the first search."}
         </p>
+        {price}
       </section>
     );
   const waits = approval && playing && !offer.isLate && offer.designs.some((p) => isOpen(p.design));
@@ -102,6 +108,7 @@ export function Proposals({
         <MaterialKey />
       </div>
       <p class="quiet">{outlook(offer, waits, approval)}</p>
+      {price}
       <ul class="cards">
         {offer.designs.map((p) => {
           const state = stateOf(p.design);

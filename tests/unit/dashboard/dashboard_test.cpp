@@ -94,7 +94,8 @@ class DashboardOfARun : public testing::Test {
 };
 
 TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
-  for (const char* path : {"/api/run", "/api/live", "/api/rounds", "/api/laboratory", "/api/maps", "/api/families"}) {
+  for (const char* path :
+       {"/api/run", "/api/live", "/api/rounds", "/api/laboratory", "/api/next", "/api/maps", "/api/families"}) {
     const Response response = get(path);
     EXPECT_EQ(response.status, 200) << path << response.body;
     EXPECT_TRUE(Json::accept(response.body)) << path;
