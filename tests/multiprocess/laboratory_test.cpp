@@ -18,6 +18,7 @@ namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -205,17 +206,25 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   PersonsGame person(folder, "states", kScenario);
   const std::string run = person.run().string();
   person.wait_for("orders of the base materials", [&] { return person.orders().size() == 6; });
+  EXPECT_THAT(person.game().said(), HasSubstr("round 1, as expected: 16 specimens on 2 trays, 202 slices,"));
+  person.wait_for("a proposal", [&] { return !person.rounds().empty(); });
   const std::string proposed = person.proposals().at(0).designs.at(0).design.name();
   const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
   EXPECT_EQ(states(person.run()).at(proposed), "pending");
   EXPECT_EQ(states(person.run()).at("soft"), "approved");
-  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  waits for approval "));
+  EXPECT_THAT(
+      run_nacre({"approve", "--run", run}).out,
+      AllOf(HasSubstr(proposed + "  waits for approval "),
+            HasSubstr("round 1: 16 specimens on 2 trays, 202 slices, about 2.2 h of printing, 2.7 h of testing,")));
   person.decide({"approve", proposed, "--reject", "--why", "islands"});
   EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  rejected "));
   EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
   person.wait_for("orders of the person's design", [&] { return person.orders().size() == 8; });
   EXPECT_EQ(states(person.run()).at(proposed), "rejected");
   EXPECT_EQ(states(person.run()).at(own), "approved");
+  EXPECT_THAT(run_nacre({"designs", "--run", run}).out, HasSubstr("round 1: 16 specimens on 2 trays"));
+  const Outcome status = run_nacre({"status", "--run", run});
+  EXPECT_THAT(status.out, AllOf(HasSubstr("it cannot be told yet what a round brings"), HasSubstr("round 1: 16 spec")));
 
   const std::string earlier = (folder / "earlier/job").string(), job = (folder / "job").string();
   const std::vector<std::string> coarse = {"--replicates", "1", "--dpi", "100,100,100"};
@@ -234,6 +243,7 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 specimens printed"));
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 known already"));
   EXPECT_EQ(run_nacre({"fabricate", "--orders", "--run", run, "--out", job}).status, 1) << "nothing is left to print";
+  EXPECT_THAT(run_nacre({"designs", "--run", run}).out, HasSubstr("ml of resin; all are printed"));
   fabricate_one({"checkerboard:2", "--batch", "job", "--out", (folder / "clash").string()});
   const Outcome clash = run_nacre({"printed", (folder / "clash").string(), "--run", run});
   EXPECT_EQ(clash.status, 2);
@@ -250,6 +260,15 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   EXPECT_EQ(states(person.run()).at(own), "measured");
   EXPECT_EQ(states(person.run()).at("rigid"), "measured");
   EXPECT_EQ(person.rounds().back().calibration_count, 1) << "the person's design";
+  const Outcome over = run_nacre({"status", "--run", run, "--json"});
+  EXPECT_EQ(over.status, 1) << "nobody plays";
+  const auto next = nlohmann::json::parse(over.out)["next"];
+  EXPECT_EQ(next["round"], 2);
+  EXPECT_EQ(next["brought"].size(), 1U);
+  EXPECT_TRUE(next["is_scatter_of_fit"].get<bool>()) << "one design was predicted";
+  EXPECT_GE(next["expected"]["mean_gpa_mpa"].get<double>(), 0.0);
+  EXPECT_THAT(next["sentence"].get<std::string>(), HasSubstr("round 2 is expected to bring "));
+  EXPECT_EQ(next["price"]["specimens"], 4) << "one design in two tests, twice";
 }
 
 }  // namespace
