@@ -9,6 +9,7 @@
 #include "report/report_text.hpp"
 #include "report/svg.hpp"
 #include "run/misfit.hpp"
+#include "run/next_round.hpp"
 
 namespace nacre::report {
 namespace {
@@ -67,6 +68,15 @@ std::string diagnosis_in_words(const run::RunRecord& run) {
   return run.is_diagnosed ? "There is no diagnosis yet." : "The scenario turns the diagnosis off.";
 }
 
+/// What rounds have brought, and the next is expected to; empty before a pattern is measured.
+std::string growth_in_words(const run::RunRecord& run) {
+  const run::NextRound next = run::next_round(run);
+  if (next.brought.empty()) return "";
+  std::string words = escaped(in_words(next));
+  for (auto at = words.find("+-"); at != std::string::npos; at = words.find("+-")) words.replace(at, 2, "±");
+  return paragraph(fmt::format("Another round: {}.", words));
+}
+
 }  // namespace
 
 std::string standing_sentences(const run::RunRecord& run) {
@@ -74,7 +84,7 @@ std::string standing_sentences(const run::RunRecord& run) {
   if (!closed) return paragraph(awaited("the end of round 0, with the first model, gamut and proposals"));
   const wire::RoundSummary& summary = *run.rounds.at(*closed).summary;
   return paragraph(fronts_in_words(*closed, summary), "standing") + paragraph(equilibrium_in_words(summary)) +
-         paragraph(diagnosis_in_words(run)) + fidelity_words(summary.fidelity);
+         growth_in_words(run) + paragraph(diagnosis_in_words(run)) + fidelity_words(summary.fidelity);
 }
 
 std::string machine_in_words(const run::RunRecord& run) {

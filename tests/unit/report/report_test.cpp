@@ -63,6 +63,13 @@ TEST(Report, RunningGameLeavesNothingAwaited) {
   EXPECT_EQ(fault_of_markup(page), "");
 }
 
+TEST(Report, SaysWhatAnotherRoundIsExpectedToBring) {
+  EXPECT_THAT(render_report(sample::run(), "a-run"),
+              ContainsRegex("Another round: round 2 brought [0-9.]+ ± [0-9.]+ GPa MPa of measured hypervolume, round 3 "
+                            "[0-9.]+ ± [0-9.]+; round 4 "));
+  EXPECT_THAT(render_report(sample::run(0), "a-run"), Not(HasSubstr("Another round")));
+}
+
 std::string head_of(const std::string& page) {
   return page.substr(page.find("<header>"), page.find("</header>") - page.find("<header>"));
 }
