@@ -1,5 +1,7 @@
 #include "played_game.hpp"
 
+#include <algorithm>
+
 #include "run/journal_messages.hpp"
 
 namespace nacre::verification {
@@ -20,7 +22,15 @@ PlayedGame read_game(const std::filesystem::path& run) {
     if (const auto proposal = wire::read<wire::Proposal>(payload)) game.proposals.emplace(proposal->round, *proposal);
   };
   const auto take_measurement = [&](const std::string& payload) {
-    if (const auto measured = wire::read<wire::Measurement>(payload)) game.specimens.push_back(measured->record);
+    const auto measured = wire::read<wire::Measurement>(payload);
+    if (!measured) return;
+    const auto known =
+        std::ranges::find(game.specimens, measured->record.specimen, &measurement::SpecimenRecord::specimen);
+    if (known == game.specimens.end()) {
+      game.specimens.push_back(measured->record);
+    } else if (measured->revision > 0) {
+      *known = measured->record;
+    }
   };
   run::JournalMessages(run, "validation_agent")
       .read({{"GAMUT", take_chunk}, {"PROPOSAL", take_proposal}, {"MEASUREMENT", take_measurement}},

@@ -121,11 +121,11 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
 }
 
 const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
-  static const std::map<std::string, Route> routes = {{"/api/measurement", &Dashboard::enter},
-                                                      {"/api/review", &Dashboard::review},
-                                                      {"/api/approval", &Dashboard::decide},
-                                                      {"/api/simulate", &Dashboard::simulate},
-                                                      {"/api/grouping", &Dashboard::group}};
+  static const std::map<std::string, Route> routes = {
+      {"/api/measurement", &Dashboard::enter},   {"/api/review", &Dashboard::review},
+      {"/api/approval", &Dashboard::decide},     {"/api/amendment", &Dashboard::amend},
+      {"/api/withdrawal", &Dashboard::withdraw}, {"/api/simulate", &Dashboard::simulate},
+      {"/api/grouping", &Dashboard::group}};
   return routes;
 }
 
@@ -374,8 +374,8 @@ Response Dashboard::delivery_response(const Answer& answer, const std::vector<st
       return json_response(json);
     case Delivery::conflicting:
       json["error"] =
-          "The run already has another measurement of this name, and keeps it: enter yours under a new name, or review "
-          "the old one.";
+          "The run already has another measurement of this name, and keeps it: amend it in the table of specimens, or "
+          "enter yours under a new name.";
       return json_response(json, 409);
     case Delivery::refused:
       json["error"] = answer.refusal;
@@ -405,6 +405,20 @@ Response Dashboard::decide(const Request& request) {
   const std::lock_guard lock(desk_mutex_);
   if (const auto reason = desk_.against(approval)) return conflict_response(*reason);
   return delivery_response(desk_.decide(approval));
+}
+
+Response Dashboard::amend(const Request& request) {
+  const auto amendment = or_refuse(amendment_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  const auto specimen = or_refuse(desk_.amended(amendment));
+  return delivery_response(desk_.amend(specimen, amendment.by, amendment.why), desk_.doubts_about(specimen));
+}
+
+Response Dashboard::withdraw(const Request& request) {
+  const auto withdrawal = or_refuse(withdrawal_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  if (const auto reason = desk_.against(withdrawal)) return conflict_response(*reason);
+  return delivery_response(desk_.withdraw(withdrawal));
 }
 
 Response Dashboard::group(const Request& request) {

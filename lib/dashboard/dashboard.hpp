@@ -59,6 +59,8 @@ class Dashboard {
   Response enter(const Request&);
   Response review(const Request&);
   Response decide(const Request&);
+  Response amend(const Request&);
+  Response withdraw(const Request&);
   Response simulate(const Request&);
   Response group(const Request&);
 

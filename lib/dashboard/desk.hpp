@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/result.hpp"
 #include "dashboard/live_search.hpp"
 #include "dashboard/round_price.hpp"
 #include "families/grouping.hpp"
@@ -45,6 +47,21 @@ struct Approval {
 struct SpecimenReview {
   std::string specimen;
   bool valid = true;
+  std::string by, why;
+};
+
+/// A person's amendment of a specimen that was mistyped: other values in columns of a measurement set.
+struct Amendment {
+  std::string specimen;
+  std::map<std::string, std::string> changes;  ///< cells by column
+  std::string by, why;
+};
+
+/// A person's word that an order, or all open ones of a design, are not to be made, or are after all.
+struct Withdrawal {
+  std::string order;   ///< its id; empty: those of `design`
+  std::string design;  ///< canonical name
+  bool withdrawn = true;
   std::string by, why;
 };
 
@@ -85,9 +102,14 @@ class Desk {
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer review(const SpecimenReview& review) = 0;
   virtual Answer decide(const Approval& approval) = 0;
-  /// Why a review or an approval would change nothing, as a sentence; nothing where it counts.
+  virtual Answer amend(const measurement::SpecimenRecord& specimen, const std::string& by, const std::string& why) = 0;
+  virtual Answer withdraw(const Withdrawal& withdrawal) = 0;
+  /// The specimen as amended; error: which column cannot be so, or that nobody knows the specimen.
+  virtual Result<measurement::SpecimenRecord> amended(const Amendment& amendment) = 0;
+  /// Why a review, an approval or a withdrawal would change nothing, as a sentence; nothing where it counts.
   virtual std::optional<std::string> against(const SpecimenReview& review) = 0;
   virtual std::optional<std::string> against(const Approval& approval) = 0;
+  virtual std::optional<std::string> against(const Withdrawal& withdrawal) = 0;
   /// Writes families.toml into `folder`: a game's family stage uses it when it begins, `nacre families` whenever it is
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder,

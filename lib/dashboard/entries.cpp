@@ -143,6 +143,40 @@ Result<Approval> approval_from_json(std::string_view text) {
   return Approval{design->name(), *round, *approved, *by, *why};
 }
 
+Result<Amendment> amendment_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto specimen = text_of(*object, "specimen", true), by = text_of(*object, "by", true),
+             why = text_of(*object, "why", true);
+  for (const auto* each : {&specimen, &by, &why})
+    if (!*each) return tl::unexpected(each->error());
+  Amendment amendment{.specimen = *specimen, .changes = {}, .by = *by, .why = *why};
+  for (const auto& [name, value] : object->items()) {
+    if (name == "specimen" || name == "by" || name == "why") continue;
+    Result<std::string> cell = cell_of(name, value);
+    if (!cell) return tl::unexpected(cell.error());
+    amendment.changes[name] = std::move(*cell);
+  }
+  if (amendment.changes.empty()) return fail("nothing is amended: expected columns with other values");
+  return amendment;
+}
+
+Result<Withdrawal> withdrawal_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto withdrawn = flag_of(*object, "withdrawn");
+  if (!withdrawn) return tl::unexpected(withdrawn.error());
+  const auto order = text_of(*object, "order"), by = text_of(*object, "by", true),
+             why = text_of(*object, "why", *withdrawn);
+  for (const auto* each : {&order, &by, &why})
+    if (!*each) return tl::unexpected(each->error());
+  if (object->contains("design") != order->empty()) return fail("expected either order or design");
+  if (!order->empty()) return Withdrawal{*order, "", *withdrawn, *by, *why};
+  const auto design = design_of(*object, "design");
+  if (!design) return tl::unexpected(design.error());
+  return Withdrawal{"", design->name(), *withdrawn, *by, *why};
+}
+
 Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());

@@ -18,6 +18,12 @@ Result<SpecimenReview> specimen_review_from_json(std::string_view text);
 /// `design` (canonical name), `round` (-1 or absent: a design of the person's own), `approved`, `by`, `why`.
 Result<Approval> approval_from_json(std::string_view text);
 
+/// `specimen`, `by`, `why` (not empty), and columns of a measurement set with other values.
+Result<Amendment> amendment_from_json(std::string_view text);
+
+/// `order` or `design` (canonical name), `withdrawn`, `by`, `why` (may be empty where an order is given again).
+Result<Withdrawal> withdrawal_from_json(std::string_view text);
+
 /// Whether a text names a model: the number of a round or the name of a family.
 bool is_model_name(std::string_view name);
 

@@ -10,10 +10,30 @@
 
 namespace nacre::dashboard {
 
+/// What was reported of a specimen before it was amended.
+struct EarlierReportRow {
+  static constexpr std::string_view kPageName = "EarlierReport";
+  game::Report report;
+
+  static void fields(auto& field, auto& m) {
+    const measurement::SpecimenRecord& r = m.report.record;
+    field("revision", m.report.amendment.revision);
+    field("design", r.design);
+    field("test", r.test);
+    condition_fields(field, r.conditions);
+    field("modulus_pa", r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa);
+    field("toughness_pa", r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa);
+    field("by", m.report.amendment.by);
+    field("why", m.report.amendment.why);
+  }
+};
+
 struct LaboratorySpecimenRow {
   static constexpr std::string_view kPageName = "LaboratorySpecimen";
   measurement::SpecimenRecord record;
-  game::Review review;  ///< the last one; by nobody: there is none
+  game::Review review;        ///< the last one; by nobody: there is none
+  game::Amendment amendment;  ///< the last one
+  std::vector<EarlierReportRow> earlier;
 
   static void fields(auto& field, auto& m) {
     const measurement::SpecimenRecord& r = m.record;
@@ -29,6 +49,9 @@ struct LaboratorySpecimenRow {
     field("note", r.note);
     field("by", m.review.by);
     field("why", m.review.why);
+    field("amended_by", m.amendment.by);
+    field("amended_why", m.amendment.why);
+    field("earlier", m.earlier);
   }
 };
 
@@ -36,6 +59,7 @@ struct OrderRow {
   static constexpr std::string_view kPageName = "Order";
   game::Order order;
   game::OrderProgress progress;
+  game::Withdrawal withdrawal;  ///< that counts; by nobody: there is none
 
   static void fields(auto& field, auto& m) {
     const game::Order& order = m.order;
@@ -51,6 +75,9 @@ struct OrderRow {
     field("valid", m.progress.valid);
     field("complete", m.progress.complete);
     field("reason", game::to_string(order.reason));
+    field("withdrawn", !m.withdrawal.by.empty() && m.withdrawal.withdrawn);
+    field("by", m.withdrawal.by);
+    field("why", m.withdrawal.why);
   }
 };
 

@@ -79,7 +79,8 @@ RoundPrice price_of_round(const game::Scenario& scenario, const game::Laboratory
   for (std::size_t i = 0; i < orders.size(); ++i) {
     all.push_back(wanted(orders[i], orders[i].replicates));
     const int missing = orders[i].replicates - std::max(printed[i], progress[i].arrived);
-    if (!progress[i].complete && missing > 0) left.push_back(wanted(orders[i], missing));
+    if (!progress[i].complete && !facts.withdrawals.is_withdrawn(orders[i].id) && missing > 0)
+      left.push_back(wanted(orders[i], missing));
   }
   price.all = price_of(scenario, std::move(all));
   price.left = price_of(scenario, std::move(left));

@@ -29,8 +29,16 @@ bool waits_for_approval(const LaboratoryFacts& facts, const pattern::Design& des
          });
 }
 
-DesignStage stage_of(const DesignState& state, bool all_complete) {
-  if (state.ordered > 0 ? all_complete : state.valid > 0) return DesignStage::measured;
+/// Orders of a design that are not complete.
+struct Incomplete {
+  int open = 0;
+  const Withdrawal* withdrawn = nullptr;  ///< the last one's
+};
+
+DesignStage stage_of(const DesignState& state, const Incomplete& orders) {
+  if (state.ordered > 0 && orders.open == 0)
+    return orders.withdrawn != nullptr ? DesignStage::withdrawn : DesignStage::measured;
+  if (state.ordered == 0 && state.valid > 0) return DesignStage::measured;
   if (state.printed > 0) return DesignStage::printed;
   if (state.ordered > 0) return DesignStage::approved;
   return DesignStage::pending;
@@ -50,6 +58,8 @@ std::string_view to_string(DesignStage stage) {
       return "printed";
     case DesignStage::measured:
       return "measured";
+    case DesignStage::withdrawn:
+      return "withdrawn";
   }
   return "pending";
 }
@@ -105,6 +115,46 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedAp
                      first->by);
 }
 
+std::vector<std::string> orders_to_change(const LaboratoryFacts& facts, const pattern::Design& design, bool withdrawn) {
+  const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
+  int newest = 0;
+  for (const Order& order : facts.orders) newest = std::max(newest, order.round);
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < facts.orders.size(); ++i) {
+    const Order& order = facts.orders[i];
+    if (order.round == newest && order.design == design && !progress[i].complete &&
+        facts.withdrawals.is_withdrawn(order.id) != withdrawn)
+      ids.push_back(order.id);
+  }
+  return ids;
+}
+
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const std::string& order_id, bool withdrawn) {
+  const auto order = std::ranges::find(facts.orders, order_id, &Order::id);
+  if (order == facts.orders.end()) return fmt::format("{}: there is no such order", order_id);
+  const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
+  if (progress[order - facts.orders.begin()].complete)
+    return fmt::format("order {} is complete: its specimens are measured, and count", order_id);
+  const Withdrawal* held = facts.withdrawals.of(order_id);
+  const bool is_withdrawn = held != nullptr && held->withdrawn;
+  if (withdrawn && is_withdrawn) return fmt::format("order {} was withdrawn by {}: {}", order_id, held->by, held->why);
+  if (!withdrawn && !is_withdrawn) return fmt::format("order {} is not withdrawn", order_id);
+  return std::nullopt;
+}
+
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const pattern::Design& design, bool withdrawn) {
+  if (!orders_to_change(facts, design, withdrawn).empty()) return std::nullopt;
+  const std::string name = design.name();
+  if (!withdrawn) return fmt::format("{}: none of its orders of the newest round is withdrawn", name);
+  if (waits_for_approval(facts, design)) return fmt::format("{} waits for approval: reject it instead", name);
+  const auto states = design_states(facts);
+  const auto state = std::ranges::find(states, design, &DesignState::design);
+  if (state == states.end()) return fmt::format("{} is not ordered", name);
+  if (state->ordered == 0 && state->stage == DesignStage::approved)
+    return fmt::format("{} is not ordered yet: withdraw it when the next round has begun", name);
+  return fmt::format("{}: no order of it is open: it is {}", name, to_string(state->stage));
+}
+
 measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts) {
   measurement::ConsistencySettings settings;
   if (facts.replicates > 0) settings.fewest_tested = facts.replicates;
@@ -121,13 +171,18 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
     return state;
   };
   for (const ProposedForRound& proposed : facts.proposed) state_of(proposed.design).round = proposed.round;
-  std::map<std::string, bool> all_complete;
+  std::map<std::string, Incomplete> incomplete;
   const std::vector<OrderProgress> progress = facts.book.progress(facts.orders, facts.enough_valid);
   for (std::size_t i = 0; i < facts.orders.size(); ++i) {
     const Order& order = facts.orders[i];
     state_of(order.design).ordered += order.replicates;
-    const auto [entry, is_new] = all_complete.try_emplace(order.design.name(), true);
-    entry->second = entry->second && progress[i].complete;
+    if (progress[i].complete) continue;
+    Incomplete& orders = incomplete[order.design.name()];
+    if (facts.withdrawals.is_withdrawn(order.id)) {
+      orders.withdrawn = facts.withdrawals.of(order.id);
+    } else {
+      ++orders.open;
+    }
   }
   for (const PrintedSpecimen& specimen : facts.printed) ++state_of(specimen.design).printed;
   for (const measurement::SpecimenRecord& specimen : facts.book.specimens()) {
@@ -137,7 +192,7 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
   }
   for (auto& [name, state] : states) {
     state.printed = std::max(state.printed, state.arrived);  // a measured specimen was printed, reported or not
-    state.stage = stage_of(state, all_complete[name]);
+    state.stage = stage_of(state, incomplete[name]);
   }
   std::map<std::string, bool> decided;
   for (const StatedApproval& approval : facts.approvals) {
@@ -154,7 +209,13 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
       state.stage = approval.approved ? DesignStage::approved : DesignStage::rejected;
   }
   std::vector<DesignState> result;
-  for (auto& [name, state] : states) result.push_back(std::move(state));
+  for (auto& [name, state] : states) {
+    if (state.stage == DesignStage::withdrawn) {
+      state.decided_by = incomplete[name].withdrawn->by;
+      state.why = incomplete[name].withdrawn->why;
+    }
+    result.push_back(std::move(state));
+  }
   return result;
 }
 

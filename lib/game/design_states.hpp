@@ -9,17 +9,19 @@
 #include <vector>
 
 #include "game/measurement_book.hpp"
+#include "game/withdrawal_book.hpp"
 #include "measurement/consistency.hpp"
 #include "tester/names.hpp"
 
 namespace nacre::game {
 
 enum class DesignStage {
-  pending,   ///< proposed, waiting for a person's approval or for its round
-  rejected,  ///< by a person
-  approved,  ///< ordered: to be printed
-  printed,   ///< some specimens are printed, not all orders are complete
-  measured,  ///< every order is complete, or it was measured without one
+  pending,    ///< proposed, waiting for a person's approval or for its round
+  rejected,   ///< by a person
+  approved,   ///< ordered: to be printed
+  printed,    ///< some specimens are printed, not all orders are complete
+  measured,   ///< every order is complete, or it was measured without one
+  withdrawn,  ///< by a person: what is not complete of its orders is not made
 };
 std::string_view to_string(DesignStage stage);
 
@@ -52,6 +54,7 @@ struct LaboratoryFacts {
   std::vector<ProposedForRound> proposed;
   std::vector<StatedApproval> approvals;  ///< in the order of arrival: the first valid one counts
   std::vector<Order> orders;
+  WithdrawalBook withdrawals;  ///< of these orders
   std::vector<PrintedSpecimen> printed;
   MeasurementBook book;
   int replicates = 0;    ///< of the scenario
@@ -94,6 +97,16 @@ std::optional<StatedApproval> approval_against(const LaboratoryFacts& facts, con
 /// Why an approval would have no effect, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
 std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& approval,
                                     bool asks_for_approvals);
+
+/// The orders of a design that a person can withdraw now (`withdrawn`), or give again: those of the newest round that
+/// are not complete.
+std::vector<std::string> orders_to_change(const LaboratoryFacts& facts, const pattern::Design& design, bool withdrawn);
+
+/// Why withdrawing an order, or giving it again, would have no effect, as a sentence; nothing where it counts.
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const std::string& order_id, bool withdrawn);
+
+/// The same of all orders of a design: why there is none to withdraw, or to give again.
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const pattern::Design& design, bool withdrawn);
 
 /// Printed specimens of each order: those with its id, then those that fit and have none.
 std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed);

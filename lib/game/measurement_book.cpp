@@ -33,11 +33,32 @@ std::optional<std::string> order_mismatch(const measurement::SpecimenRecord& spe
       near->conditions.thickness_mm, 100.0 * measurement::kRateTolerance, 100.0 * measurement::kThicknessTolerance);
 }
 
-MeasurementBook::Receipt MeasurementBook::enter(const measurement::SpecimenRecord& record,
-                                                const std::string& order_id) {
-  const auto [position, is_new] = entries_.try_emplace(record.specimen, Reported{record, order_id});
-  if (is_new) return Receipt::accepted;
-  return position->second.record == record ? Receipt::repeated : Receipt::conflicting;
+namespace {
+
+/// The report that counts.
+const Report& newest(const std::map<int, Report>& reports) { return reports.rbegin()->second; }
+
+}  // namespace
+
+MeasurementBook::Receipt MeasurementBook::enter(const measurement::SpecimenRecord& record, const std::string& order_id,
+                                                const Amendment& amendment) {
+  std::map<int, Report>& reports = entries_[record.specimen];
+  const auto [position, is_new] = reports.try_emplace(amendment.revision, Report{record, order_id, amendment});
+  if (!is_new) return position->second.record == record ? Receipt::repeated : Receipt::conflicting;
+  return &position->second == &newest(reports) ? Receipt::accepted : Receipt::superseded;
+}
+
+std::vector<Report> MeasurementBook::reports_of(const std::string& specimen) const {
+  std::vector<Report> all;
+  if (const auto known = entries_.find(specimen); known != entries_.end())
+    for (const auto& [revision, report] : known->second) all.push_back(report);
+  return all;
+}
+
+std::map<std::string, int> MeasurementBook::revisions() const {
+  std::map<std::string, int> revisions;
+  for (const auto& [specimen, reports] : entries_) revisions[specimen] = newest(reports).amendment.revision;
+  return revisions;
 }
 
 bool MeasurementBook::review(const std::string& specimen, const Review& review) {
@@ -61,7 +82,7 @@ std::optional<Review> MeasurementBook::review_against(const std::string& specime
 std::optional<std::string> MeasurementBook::against_validity(const std::string& specimen) const {
   const auto known = entries_.find(specimen);
   if (known == entries_.end()) return std::nullopt;
-  const auto fault = measurement::why_unusable(known->second.record);
+  const auto fault = measurement::why_unusable(newest(known->second).record);
   if (!fault) return std::nullopt;
   return fmt::format("{}: cannot be valid: {} {}", specimen, fault->column, fault->reason);
 }
@@ -71,19 +92,19 @@ const Review* MeasurementBook::review_of(const std::string& specimen) const {
   return review == reviews_.end() ? nullptr : &review->second;
 }
 
-bool MeasurementBook::valid(const Reported& reported) const {
-  const auto review = reviews_.find(reported.record.specimen);
-  if (review == reviews_.end()) return reported.record.valid;
+bool MeasurementBook::valid(const Report& report) const {
+  const auto review = reviews_.find(report.record.specimen);
+  if (review == reviews_.end()) return report.record.valid;
   // A review may make a specimen valid again, but not one without a result or with a wrong unit.
-  return review->second.valid && !measurement::why_unusable(reported.record);
+  return review->second.valid && !measurement::why_unusable(report.record);
 }
 
 std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {
   std::vector<measurement::SpecimenRecord> all;
   all.reserve(entries_.size());
-  for (const auto& [name, reported] : entries_) {
-    all.push_back(reported.record);
-    all.back().valid = valid(reported);
+  for (const auto& [name, reports] : entries_) {
+    all.push_back(newest(reports).record);
+    all.back().valid = valid(newest(reports));
     const auto review = reviews_.find(name);
     if (review != reviews_.end() && !review->second.valid) all.back().note = review->second.why;
   }
@@ -93,30 +114,31 @@ std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {
 std::vector<OrderProgress> MeasurementBook::progress(std::span<const Order> orders, int enough_valid) const {
   std::map<std::string_view, const Order*> by_id;
   for (const Order& order : orders) by_id.emplace(order.id, &order);
-  std::vector<const Reported*> unassigned;
-  std::map<std::string, std::vector<const Reported*>> assigned;
-  for (const auto& [name, reported] : entries_) {
-    const auto order = by_id.find(reported.order_id);
-    if (order != by_id.end() && fulfils(reported.record, *order->second)) {
-      assigned[reported.order_id].push_back(&reported);
+  std::vector<const Report*> unassigned;
+  std::map<std::string, std::vector<const Report*>> assigned;
+  for (const auto& [name, reports] : entries_) {
+    const Report& report = newest(reports);
+    const auto order = by_id.find(report.order_id);
+    if (order != by_id.end() && fulfils(report.record, *order->second)) {
+      assigned[report.order_id].push_back(&report);
     } else {
-      unassigned.push_back(&reported);
+      unassigned.push_back(&report);
     }
   }
   std::vector<OrderProgress> all;
   all.reserve(orders.size());
   for (const Order& order : orders) {
     OrderProgress progress;
-    const auto count = [&](const Reported& reported) {
+    const auto count = [&](const Report& report) {
       ++progress.arrived;
-      progress.valid += valid(reported);
+      progress.valid += valid(report);
     };
-    for (const Reported* reported : assigned[order.id]) count(*reported);
-    for (const Reported*& reported : unassigned) {
+    for (const Report* report : assigned[order.id]) count(*report);
+    for (const Report*& report : unassigned) {
       if (progress.arrived >= order.replicates) break;
-      if (reported == nullptr || !fulfils(reported->record, order)) continue;
-      count(*reported);
-      reported = nullptr;
+      if (report == nullptr || !fulfils(report->record, order)) continue;
+      count(*report);
+      report = nullptr;
     }
     progress.complete = progress.arrived >= order.replicates || (enough_valid > 0 && progress.valid >= enough_valid);
     all.push_back(progress);

@@ -21,6 +21,19 @@ struct Review {
   std::string by = {};  ///< without effect on the result
 };
 
+/// Which report of a specimen a record is: the first one, or an amendment of the one before.
+struct Amendment {
+  int revision = 0;  ///< 0: the first report
+  std::string by, why;
+};
+
+/// A report of a specimen.
+struct Report {
+  measurement::SpecimenRecord record;
+  std::string order_id;  ///< empty when nacre did not order the specimen, or when the laboratory does not know
+  Amendment amendment;
+};
+
 /// Progress of an order.
 struct OrderProgress {
   int arrived = 0;  ///< specimens, valid or not
@@ -40,12 +53,19 @@ class MeasurementBook {
  public:
   enum class Receipt {
     accepted,
-    repeated,     ///< the same specimen with the same content: nothing changes
-    conflicting,  ///< the same specimen with other content: refused
+    superseded,   ///< an amendment of it counts already: kept, nothing else changes
+    repeated,     ///< the same revision of the specimen with the same content: nothing changes
+    conflicting,  ///< the same revision of the specimen with other content: refused
   };
 
-  /// `order_id` is empty when nacre did not order the specimen, or when the laboratory does not know.
-  Receipt enter(const measurement::SpecimenRecord& record, const std::string& order_id);
+  /// Of a specimen's reports that with the highest revision counts. They may come in any order.
+  Receipt enter(const measurement::SpecimenRecord& record, const std::string& order_id,
+                const Amendment& amendment = {});
+
+  /// All reports of a specimen, the one that counts last; empty of an unknown one. Validity as reported.
+  std::vector<Report> reports_of(const std::string& specimen) const;
+  /// The revision that counts of each specimen.
+  std::map<std::string, int> revisions() const;
 
   /// Reviews may come before the measurement. Returns whether the specimen's validity may have changed.
   bool review(const std::string& specimen, const Review& review);
@@ -70,14 +90,10 @@ class MeasurementBook {
   int size() const { return entries_.size(); }
 
  private:
-  struct Reported {
-    measurement::SpecimenRecord record;
-    std::string order_id;
-  };
-  bool valid(const Reported& reported) const;
+  bool valid(const Report& report) const;
 
-  std::map<std::string, Reported> entries_;  // by specimen
-  std::map<std::string, Review> reviews_;    // by specimen
+  std::map<std::string, std::map<int, Report>> entries_;  // by specimen and revision
+  std::map<std::string, Review> reviews_;                 // by specimen
 };
 
 }  // namespace nacre::game

@@ -124,10 +124,10 @@ std::vector<std::string> specimens_to_name(const std::vector<measurement::Specim
   for (const auto& [name, group] : group_of) by_replicate.emplace_back(count[group]++, name);
   std::ranges::sort(by_replicate);
   std::vector<std::string> names;
-  constexpr std::size_t kLengthAndEnd = 5;
+  constexpr std::size_t kBeyondLetters = 9;
   for (const auto& [number, name] : by_replicate) {
-    if (name.size() + kLengthAndEnd > most_bytes) break;
-    most_bytes -= name.size() + kLengthAndEnd;
+    if (name.size() + kBeyondLetters > most_bytes) break;
+    most_bytes -= name.size() + kBeyondLetters;
     names.push_back(name);
   }
   std::ranges::sort(names);

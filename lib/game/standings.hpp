@@ -51,8 +51,8 @@ std::vector<optimize::Performance> benchmark_line(const std::vector<measurement:
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Names, sorted, of the valid specimens that one request about all of them can list: every one where `most_bytes`
-/// hold the names as LCM writes them (5 bytes more than letters), else of each design in each test under each nominal
-/// conditions equally many replicates, the first by name, as many as fit.
+/// hold the names as LCM writes them (5 bytes more than letters) with a number each (4 bytes), else of each design in
+/// each test under each nominal conditions equally many replicates, the first by name, as many as fit.
 std::vector<std::string> specimens_to_name(const std::vector<measurement::SpecimenRecord>& specimens,
                                            std::size_t most_bytes);
 

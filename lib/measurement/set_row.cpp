@@ -228,4 +228,29 @@ tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path&
   return RowParser(folder, heading, row, planned, curves).parse();
 }
 
+namespace {
+
+std::string optional_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+}  // namespace
+
+std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const std::string& curve) {
+  std::map<std::string, std::string> cells = {
+      {"specimen", record.specimen},
+      {"pattern", record.design.name()},
+      {"test", std::string(tester::to_string(record.test))},
+      {"orientation_deg", fmt::format("{}", record.conditions.orientation_deg)},
+      {"strain_rate_per_s", fmt::format("{}", record.conditions.strain_rate_per_s)},
+      {"batch", record.batch},
+      {"print_order", record.print_order == 0 ? "" : std::to_string(record.print_order)},
+      {"thickness_mm", fmt::format("{}", record.conditions.thickness_mm)},
+      {"modulus_pa", optional_number(record.modulus_pa)},
+      {"toughness_pa", optional_number(record.toughness_pa)},
+      {"curve", curve},
+      {"valid", record.valid ? "1" : "0"},
+      {"note", record.note}};
+  cells.insert(record.other_columns.begin(), record.other_columns.end());
+  return cells;
+}
+
 }  // namespace nacre::measurement

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,5 +32,9 @@ using CurveSource = std::function<Result<tester::Curve>(const std::string& name)
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const SetHeading& heading,
                                                     const CsvRow& row, bool planned = false,
                                                     const CurveSource& curves = {});
+
+/// A specimen as cells by column, its curve the file of that name. A column of the author that has the name of one of
+/// nacre's is left out.
+std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const std::string& curve);
 
 }  // namespace nacre::measurement

@@ -47,4 +47,17 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
   return record;
 }
 
+tl::expected<SpecimenRecord, RejectedRow> with_changes(const SpecimenRecord& specimen,
+                                                       const std::map<std::string, std::string>& changes) {
+  SpecimenRecord plain = specimen;
+  plain.other_columns.clear();
+  std::map<std::string, std::string> fields = cells_of(plain, "");
+  fields.erase(std::string(kColumns[kCurve]));
+  for (const auto& [name, text] : changes) {
+    if (name == kColumns[kSpecimen]) return tl::unexpected(rejected(name, "stays, expected other columns"));
+    fields[name] = text;
+  }
+  return specimen_from_fields(fields, specimen.curve.empty() ? "" : to_csv(specimen.curve));
+}
+
 }  // namespace nacre::measurement

@@ -15,4 +15,9 @@ namespace nacre::measurement {
 tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<std::string, std::string>& fields,
                                                                std::string_view curve_csv);
 
+/// The specimen with other values in some columns (all but `specimen` and `curve`), checked in the same way; its curve
+/// stays.
+tl::expected<SpecimenRecord, RejectedRow> with_changes(const SpecimenRecord& specimen,
+                                                       const std::map<std::string, std::string>& changes);
+
 }  // namespace nacre::measurement

@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/set_row.hpp"
 #include "measurement/set_table.hpp"
 
 namespace nacre::measurement {
@@ -24,28 +25,6 @@ std::string curve_name(const std::string& specimen, std::set<std::string>& taken
   std::string unique = name;
   for (int copy = 2; !taken.insert(unique).second; ++copy) unique = fmt::format("{}~{}", name, copy);
   return fmt::format("curves/{}.csv", unique);
-}
-
-std::string optional_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
-
-/// A specimen as cells by column. A column of the author that has the name of one of nacre's is left out.
-std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const std::string& curve) {
-  std::map<std::string, std::string> cells = {
-      {"specimen", record.specimen},
-      {"pattern", record.design.name()},
-      {"test", std::string(tester::to_string(record.test))},
-      {"orientation_deg", fmt::format("{}", record.conditions.orientation_deg)},
-      {"strain_rate_per_s", fmt::format("{}", record.conditions.strain_rate_per_s)},
-      {"batch", record.batch},
-      {"print_order", record.print_order == 0 ? "" : std::to_string(record.print_order)},
-      {"thickness_mm", fmt::format("{}", record.conditions.thickness_mm)},
-      {"modulus_pa", optional_number(record.modulus_pa)},
-      {"toughness_pa", optional_number(record.toughness_pa)},
-      {"curve", curve},
-      {"valid", record.valid ? "1" : "0"},
-      {"note", record.note}};
-  cells.insert(record.other_columns.begin(), record.other_columns.end());
-  return cells;
 }
 
 /// Names of the files in curves/: raw exports may be kept there too, and nothing is overwritten.

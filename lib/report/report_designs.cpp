@@ -66,6 +66,13 @@ std::string specimen_name(const std::string& name) {
   return fmt::format("<code{}>{}</code>", name.size() > kOneLine ? " class=\"long\"" : "", escaped(name));
 }
 
+/// With who amended the specimen and why.
+std::string note_of(const run::MeasuredSpecimen& m) {
+  if (m.amendment.revision == 0) return m.record.note;
+  return fmt::format("{}{}amended by {}: {}", m.record.note, m.record.note.empty() ? "" : "; ", m.amendment.by,
+                     m.amendment.why);
+}
+
 std::vector<Cell> specimen_row(const run::MeasuredSpecimen& m) {
   const measurement::SpecimenRecord& r = m.record;
   const auto modulus = measurement::modulus_of(r),
@@ -79,7 +86,7 @@ std::vector<Cell> specimen_row(const run::MeasuredSpecimen& m) {
           text_cell(conditions_of(r)),
           text_cell(r.batch),
           shown_cell(r.valid ? "valid" : "<strong class=\"bad\">invalid</strong>"),
-          shown_cell(fmt::format("<span>{}</span>", escaped(r.note)))};
+          shown_cell(fmt::format("<span>{}</span>", escaped(note_of(m))))};
 }
 
 }  // namespace

@@ -72,11 +72,18 @@ void Recording::take(const wire::RoundSummary& summary) {
   closed_.close(summary.round, summary.last);
 }
 
-/// The first report of a specimen counts: a different one with the same name is refused by the validation agent, too.
+/// The highest revision of a specimen counts, and of two reports with one revision the first: the other one is refused
+/// by the validation agent, too. An amendment measures nothing anew: the round stays.
 void Recording::take(const wire::Measurement& measured) {
-  specimens_.try_emplace(measured.record.specimen, MeasuredSpecimen{.round = measured.round,
-                                                                    .measured_in = measured_in(measured, closed_),
-                                                                    .record = measured.record});
+  MeasuredSpecimen specimen{.round = measured.round,
+                            .measured_in = measured_in(measured, closed_),
+                            .amendment = {measured.revision, measured.by, measured.why},
+                            .record = measured.record};
+  const auto [position, is_new] = specimens_.try_emplace(measured.record.specimen, specimen);
+  if (is_new) return;
+  MeasuredSpecimen& known = position->second;
+  known.measured_in = specimen.measured_in = std::min(known.measured_in, specimen.measured_in);
+  if (specimen.amendment.revision > known.amendment.revision) known = std::move(specimen);
 }
 
 /// The highest revision counts; of two with one revision "not valid" stands, whichever came first.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "game/measurement_book.hpp"
 #include "measurement/specimen_record.hpp"
 #include "optimize/pareto.hpp"
 #include "wire/convert.hpp"
@@ -37,7 +38,8 @@ struct RoundRecord {
 struct MeasuredSpecimen {
   int round = -1;                      ///< that it was ordered in; -1: nobody ordered it
   int measured_in = 0;                 ///< round
-  measurement::SpecimenRecord record;  ///< validity as reviewed
+  game::Amendment amendment;           ///< the last one; revision 0: none
+  measurement::SpecimenRecord record;  ///< as amended, validity as reviewed
 };
 
 /// A family of the stage after the game.

@@ -4,7 +4,7 @@
 
 namespace nacre::run {
 
-inline constexpr int kRunSchemaVersion = 5;
+inline constexpr int kRunSchemaVersion = 6;
 
 /// `messages` holds what the analyser was sent and what it found, in that order. `payload`: the LCM encoding with blank
 /// header, `hash` its identity, `content` the same as JSON by the .lcm file, without the header and without columns of
@@ -41,27 +41,31 @@ inline constexpr const char* kRoundsView = R"sql(
   FROM closing WHERE place = 1;
 )sql";
 
-/// The first MEASUREMENT of a name counts, and of its reviews the highest revision; "not valid" wins a tie. `round`: in
-/// which it was measured, whoever ordered it.
+/// Of the MEASUREMENTs of a name the highest revision counts, of two the first; of its reviews the highest revision,
+/// "not valid" wins a tie. `round`: in which it was measured first, whoever ordered it.
 inline constexpr const char* kSpecimensView = R"sql(
   CREATE VIEW specimens AS
-  WITH first AS (SELECT *, row_number() OVER (PARTITION BY content->>'specimen' ORDER BY id) AS place
-                 FROM messages WHERE channel = 'MEASUREMENT'),
+  WITH report AS (SELECT *, row_number() OVER (PARTITION BY content->>'specimen'
+                                               ORDER BY content->>'revision' DESC, id) AS place,
+                         min(reading->>'measured_in') OVER (PARTITION BY content->>'specimen') AS measured_in
+                  FROM messages WHERE channel = 'MEASUREMENT'),
        review AS (SELECT content, row_number() OVER (PARTITION BY content->>'specimen'
                                                      ORDER BY content->>'revision' DESC, content->>'valid') AS place
                   FROM messages WHERE channel = 'REVIEW')
-  SELECT first.content->>'specimen' AS specimen, first.reading->>'measured_in' AS round,
-         first.reading->>'design' AS design, first.reading->>'test' AS test,
-         first.content->>'$.conditions.orientation_deg' AS orientation_deg,
-         first.content->>'$.conditions.strain_rate_per_s' AS strain_rate_per_s,
-         first.content->>'$.conditions.thickness_mm' AS thickness_mm, first.reading->>'standard' AS standard,
-         first.content->>'batch' AS batch, first.content->>'print_order' AS print_order,
-         first.content->>'order_id' AS order_id, first.reading->>'modulus_pa' AS modulus_pa,
-         first.reading->>'toughness_pa' AS toughness_pa,
-         coalesce(review.content->>'valid', first.content->>'valid') AND first.reading->>'usable' AS valid,
-         coalesce(review.content->>'why', first.content->>'note') AS note, review.content->>'by' AS reviewed_by
-  FROM first LEFT JOIN review ON review.content->>'specimen' = first.content->>'specimen' AND review.place = 1
-  WHERE first.place = 1;
+  SELECT report.content->>'specimen' AS specimen, report.measured_in AS round,
+         report.reading->>'design' AS design, report.reading->>'test' AS test,
+         report.content->>'$.conditions.orientation_deg' AS orientation_deg,
+         report.content->>'$.conditions.strain_rate_per_s' AS strain_rate_per_s,
+         report.content->>'$.conditions.thickness_mm' AS thickness_mm, report.reading->>'standard' AS standard,
+         report.content->>'batch' AS batch, report.content->>'print_order' AS print_order,
+         report.content->>'order_id' AS order_id, report.reading->>'modulus_pa' AS modulus_pa,
+         report.reading->>'toughness_pa' AS toughness_pa,
+         coalesce(review.content->>'valid', report.content->>'valid') AND report.reading->>'usable' AS valid,
+         coalesce(review.content->>'why', report.content->>'note') AS note, review.content->>'by' AS reviewed_by,
+         report.content->>'revision' AS revision, nullif(report.content->>'by', '') AS amended_by,
+         nullif(report.content->>'why', '') AS amended_why
+  FROM report LEFT JOIN review ON review.content->>'specimen' = report.content->>'specimen' AND review.place = 1
+  WHERE report.place = 1;
 )sql";
 
 /// Means of valid specimens under standard conditions; what was predicted when the design was proposed.

@@ -57,6 +57,7 @@ std::vector<Channel> make_channels() {
       channel<NodeStatus>("STATUS", everyone, false),
       channel<Reveal>("REVEAL", {"analyser"}),
       channel<Ask>("ASK", validation, false),
+      channel<Withdrawal>("WITHDRAWAL", validation, true, true),
   };
 }
 

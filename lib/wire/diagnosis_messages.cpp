@@ -5,7 +5,7 @@
 namespace nacre::wire {
 
 std::string DiagnoseRequest::contradiction() const {
-  return std::ranges::is_sorted(specimens) ? "" : "specimens: they are not sorted";
+  return std::ranges::is_sorted(specimens, {}, &NamedSpecimen::name) ? "" : "specimens: they are not sorted";
 }
 
 }  // namespace nacre::wire

@@ -14,13 +14,20 @@
 
 namespace nacre::wire {
 
+/// A specimen as it counted when it was named.
+struct NamedSpecimen {
+  std::string name;
+  int revision = 0;  ///< of its MEASUREMENT
+  bool operator==(const NamedSpecimen&) const = default;
+};
+
 /// DIAGNOSE: the measurements meant and the calibrated parameters.
 struct DiagnoseRequest {
   using Wire = diagnose_request_t;
   int round = 0;
   tester::Fidelity fidelity = tester::Fidelity::full;
   material::ParameterSet parameters;
-  std::vector<std::string> specimens;  ///< sorted
+  std::vector<NamedSpecimen> specimens;  ///< sorted
   bool operator==(const DiagnoseRequest&) const = default;
 
   static void fields(auto& field, auto& m) {
@@ -28,7 +35,10 @@ struct DiagnoseRequest {
     field("fidelity", m.fidelity);
     field("parameters", m.parameters);
     field.count("n_specimens", m.specimens);
-    field("specimens", m.specimens);
+    field.columns(m.specimens, [](auto& column, auto& specimen) {
+      column("specimens", specimen.name);
+      column("revision", specimen.revision, kCounted);
+    });
   }
   std::string contradiction() const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "explore/merge.hpp"
 #include "measurement/specimen_checks.hpp"
@@ -15,6 +16,11 @@ std::string strain_fault(double strain) {
 }
 
 std::string Measurement::contradiction() const {
+  for (const auto& [name, text] : {std::pair{"by", &by}, std::pair{"why", &why}}) {
+    if (revision > 0 && text->find_first_not_of(' ') == std::string::npos)
+      return fmt::format("{}: is empty, expected a text: revision {} amends specimen {}", name, revision,
+                         record.specimen);
+  }
   if (!record.valid) return {};
   const auto fault = measurement::why_unusable(record);
   return fault ? fmt::format("specimen {}: {} {}", record.specimen, fault->column, fault->reason) : "";

@@ -171,11 +171,13 @@ struct TestOrder {
 /// Strains of a measured curve.
 std::string strain_fault(double strain);
 
-/// MEASUREMENT: one specimen.
+/// MEASUREMENT: one specimen, or its amendment; of a name the highest revision counts.
 struct Measurement {
   using Wire = measurement_t;
   int round = -1;        ///< of the order, -1 when nobody ordered it
   std::string order_id;  ///< empty when nobody ordered it
+  int revision = 0;      ///< 0: the first report
+  std::string by, why;   ///< of an amendment
   tester::Fidelity fidelity = tester::Fidelity::full;
   measurement::SpecimenRecord record;
   bool operator==(const Measurement&) const = default;
@@ -185,6 +187,9 @@ struct Measurement {
     field("round", m.round, Range{-1, kRoundNumber.most});
     field("order_id", m.order_id);
     field("specimen", m.record.specimen, kName);
+    field("revision", m.revision, kCounted);
+    field("by", m.by);
+    field("why", m.why);
     field("design", m.record.design);
     field("test", m.record.test);
     field("fidelity", m.fidelity);
@@ -199,7 +204,7 @@ struct Measurement {
     field("strain", m.record.curve.strain, strain_fault);
     field("stress_pa", m.record.curve.stress_pa, kStressPa);
   }
-  /// A valid specimen carries a result.
+  /// A valid specimen carries a result, an amendment its author and reason.
   std::string contradiction() const;
 };
 

@@ -15,6 +15,7 @@
 #include "nacre/reveal_t.hpp"
 #include "nacre/review_t.hpp"
 #include "nacre/run_t.hpp"
+#include "nacre/withdrawal_t.hpp"
 #include "pattern/design.hpp"
 #include "wire/parts.hpp"
 
@@ -53,6 +54,28 @@ struct Approval {
   }
   std::string contradiction() const {
     return round >= 0 || approved ? "" : "round: -1 is outside [0, 100000] where a design is refused";
+  }
+};
+
+/// WITHDRAWAL: an order is not to be made, or is after all; the highest revision wins.
+struct Withdrawal {
+  using Wire = withdrawal_t;
+  std::string order_id;
+  int revision = 1;
+  bool withdrawn = true;  ///< false: the order is given again
+  std::string by, why;
+  bool operator==(const Withdrawal&) const = default;
+
+  static void fields(auto& field, auto& m) {
+    field("order_id", m.order_id, kName);
+    field("revision", m.revision, Range{1, kCounted.most});
+    field("withdrawn", m.withdrawn);
+    field("by", m.by, kName);
+    field("why", m.why);
+  }
+  std::string contradiction() const {
+    const bool has_reason = why.find_first_not_of(' ') != std::string::npos;
+    return has_reason || !withdrawn ? "" : fmt::format("why: is empty, expected why {} is withdrawn", order_id);
   }
 };
 

@@ -110,15 +110,16 @@ void AnalyserCore::accept_request(const wire::DiagnoseRequest& request) {
 /// Specimens of the diagnosis asked for whose measurements are still on their way.
 std::vector<std::string> AnalyserCore::missing_specimens() const {
   std::vector<std::string> missing;
-  std::ranges::copy_if(waiting_diagnosis_->specimens, std::back_inserter(missing),
-                       [&](const std::string& specimen) { return !measurements_.contains(specimen); });
+  for (const wire::NamedSpecimen& specimen : waiting_diagnosis_->specimens)
+    if (!measurements_.contains({specimen.name, specimen.revision})) missing.push_back(specimen.name);
   return missing;
 }
 
 void AnalyserCore::diagnose_when_complete() {
   if (!waiting_diagnosis_ || !missing_specimens().empty()) return;
   std::vector<std::string> payloads;
-  for (const std::string& specimen : waiting_diagnosis_->specimens) payloads.push_back(measurements_.at(specimen));
+  for (const wire::NamedSpecimen& specimen : waiting_diagnosis_->specimens)
+    payloads.push_back(measurements_.at({specimen.name, specimen.revision}));
   outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", waiting_diagnosis_->round),
                                .kind = "diagnose",
                                .spec = diagnosis_spec({.request = *waiting_diagnosis_,
@@ -148,7 +149,7 @@ void AnalyserCore::close_round(const wire::RoundSummary& round) {
 
 void AnalyserCore::accept_measurement(const std::string& payload) {
   const auto measured = wire::read<wire::Measurement>(payload);
-  measurements_.emplace(measured->record.specimen, payload);
+  measurements_.emplace(std::pair(measured->record.specimen, measured->revision), payload);
   const bool upright = measured->record.conditions.orientation_deg == 0.0;
   if (measured->record.design.layout() && upright) {
     // What nobody ordered belongs to the round that is played.

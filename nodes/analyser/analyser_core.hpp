@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/modulus_floor.hpp"
@@ -54,7 +55,7 @@ class AnalyserCore : public runtime::NodeCore {
   diagnosis::ModulusFloor floor_;
   runtime::Outputs outputs_;  // of the present step
 
-  std::map<std::string, std::string> measurements_;  // specimen -> payload of its MEASUREMENT
+  std::map<std::pair<std::string, int>, std::string> measurements_;  // payloads by specimen and revision
   std::map<int, wire::AdoptedModel> models_;
   std::set<int> diagnosed_;  // rounds that a diagnosis was asked for
   std::optional<wire::DiagnoseRequest> waiting_diagnosis_;

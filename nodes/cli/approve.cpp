@@ -16,6 +16,7 @@
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
 #include "wire/convert.hpp"
+#include "withdraw.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -26,6 +27,8 @@ struct ApproveOptions {
   bool reject = false;
   bool all = false;
   bool add = false;
+  bool withdraw = false;
+  bool undo = false;
   std::string why;
   std::string by = user_name();
   double timeout_s = 60.0;
@@ -128,7 +131,7 @@ int say_when_measured(const RunAccess& run, const pattern::Design& design) {
 /// round is left to measure it in.
 int add_own(const ApproveOptions& options, const RunAccess& run) {
   if (options.designs.empty()) throw InputError("nacre approve --add: expected designs to add");
-  if (options.reject || options.all) throw InputError("nacre approve: expected --add alone, without --reject or --all");
+  if (options.all) throw InputError("nacre approve: expected --add alone, without --all");
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
   if (!round_played(run)) {
@@ -191,7 +194,17 @@ void list_designs(const LaboratoryView& laboratory, const wire::Proposal& propos
 
 /// Throws InputError where it is not clear which designs are meant.
 void check_designs_meant(const ApproveOptions& options) {
+  const int ways = options.add + options.reject + options.withdraw + options.undo;
+  if (ways > 1) throw InputError("nacre approve: expected one of --add, --reject, --withdraw and --undo");
   if (options.add) return;
+  if (options.withdraw || options.undo) {
+    if (options.designs.empty() || options.all)
+      throw InputError::format("nacre approve --{}: expected designs or orders by name",
+                               options.undo ? "undo" : "withdraw");
+    if (options.withdraw && options.why.empty())
+      throw InputError("nacre approve --withdraw: expected --reason with why it cannot be made");
+    return;
+  }
   if (options.all && !options.designs.empty())
     throw InputError("nacre approve: expected either designs or --all, not both");
   if (options.reject && !options.all && options.designs.empty())
@@ -202,6 +215,9 @@ int approve(const ApproveOptions& options) {
   check_designs_meant(options);
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
+  if (options.withdraw || options.undo)
+    return change_orders(run, options.designs, {.withdrawn = options.withdraw, .by = options.by, .why = options.why},
+                         options.timeout_s);
   const LaboratoryView laboratory = view_laboratory(run);
   const auto proposal = open_proposal(run, laboratory);
   if (!proposal) {
@@ -222,13 +238,18 @@ void add_approve(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApproveOptions>();
   CLI::App& command = add_command(app, action, "approve",
                                   "Approve or reject proposed designs; without designs: list them", options, approve);
-  command.add_option("DESIGN", options->designs,
-                     std::string("Proposed design; with --add any design. ") + kDesignWords);
+  command.add_option(
+      "DESIGN", options->designs,
+      std::string("Proposed design; with --add any design; with --withdraw and --undo also an order. ") + kDesignWords);
   add_run_option(command, options->run);
   command.add_flag("--all", options->all, "All designs that were proposed last");
   command.add_flag("--add", options->add, "Add designs of your own, to be measured with the others");
   command.add_flag("--reject", options->reject, "Reject them");
+  command.add_flag("--withdraw", options->withdraw,
+                   "Withdraw what is open of their orders, which cannot be made: the round closes without");
+  command.add_flag("--undo", options->undo, "Give withdrawn orders again, while their round is measured");
   command.add_option("--why", options->why, "Reason; it is kept with the run");
+  command.add_option("--reason", options->why, "The same as --why");
   command.add_option("--by", options->by, "Who decides")->default_str("your account");
   command.add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the validation agent")
       ->check(CLI::Range(0.1, 1e6))

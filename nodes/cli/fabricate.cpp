@@ -115,7 +115,7 @@ std::vector<WantedSpecimens> wanted_by_game(const LaboratoryView& view) {
   std::vector<WantedSpecimens> wanted;
   for (const OrderState& order : view.orders) {
     const int missing = order.order.replicates - std::max(order.arrived, order.printed);
-    if (order.complete || missing <= 0) continue;
+    if (order.complete || order.withdrawn || missing <= 0) continue;
     wanted.push_back(dashboard::wanted(order.order, missing));
   }
   return wanted;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,7 +17,6 @@
 #include "runtime/interrupts.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
-#include "wire/header.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -26,6 +26,8 @@ using Clock = std::chrono::steady_clock;
 struct InjectOptions {
   std::string set;
   std::string run = "logs/latest";
+  std::string reason;
+  std::string by = user_name();
   double timeout_s = 60.0;
   bool json = false;
 };
@@ -33,6 +35,7 @@ struct InjectOptions {
 /// How many specimens of a set arrived.
 struct SetDelivery {
   int accepted = 0;    ///< new to the validation agent
+  int amended = 0;     ///< it had other values of them
   int repeated = 0;    ///< it had them already
   int unanswered = 0;  ///< a node has not got them
   std::set<std::string> unanswered_by;
@@ -56,11 +59,13 @@ void wait_for_receivers(runtime::Endpoint& endpoint, const std::vector<std::stri
 
 void print_delivery(const SetDelivery& delivery, bool json) {
   if (!json) {
-    fmt::print("{} accepted, {} repeated, {} conflicting, {} unanswered, {} rejected\n", delivery.accepted,
-               delivery.repeated, delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
+    fmt::print("{} accepted, {}{} repeated, {} conflicting, {} unanswered, {} rejected\n", delivery.accepted,
+               delivery.amended > 0 ? fmt::format("{} amended, ", delivery.amended) : "", delivery.repeated,
+               delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
     return;
   }
   print_json({{"accepted", delivery.accepted},
+              {"amended", delivery.amended},
               {"repeated", delivery.repeated},
               {"conflicting", delivery.conflicting},
               {"unanswered", delivery.unanswered},
@@ -80,32 +85,40 @@ measurement::RejectedRow refused(const measurement::SpecimenRecord& specimen, in
 /// Content hashes of the messages that are under way.
 struct Offered {
   std::vector<std::string> hashes;
-  std::map<std::string, std::string> specimens;  ///< by hash
-  std::set<std::string> repeated;                ///< those that the validation agent has already
+  struct Specimen {
+    std::string name;
+    HeldReport report;
+    bool is_repeated = false;
+  };
+  std::map<std::string, Specimen> specimens;  ///< by hash
 };
+
+/// Who amends and why; nothing without a reason: then nothing is amended.
+std::optional<game::Amendment> amendment_of(const InjectOptions& options) {
+  if (options.reason.empty()) return std::nullopt;
+  return game::Amendment{.by = options.by, .why = options.reason};
+}
 
 /// Offers what no node contradicts and every node would take; the rest goes into `delivery`.
 Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, const measurement::MeasurementSet& set,
-                        const std::string& folder, runtime::Endpoint& endpoint, SetDelivery& delivery) {
+                        const InjectOptions& options, runtime::Endpoint& endpoint, SetDelivery& delivery) {
   Offered offered;
   for (std::size_t i = 0; i < set.specimens.size(); ++i) {
     const measurement::SpecimenRecord& specimen = set.specimens[i];
-    const runtime::Message message = measurement_message(specimen, run.scenario.fidelity);
-    if (const auto reason =
-            against_measurement(held, specimen.specimen, wire::message_hash(message.channel, message.payload))) {
-      warn(*reason);
+    const Result<HandIn> handed = hand_in(held, specimen, run.scenario.fidelity, amendment_of(options));
+    if (!handed) {
+      warn(handed.error().message);
       delivery.conflicting.push_back(specimen.specimen);
       continue;
     }
-    const auto hash = endpoint.offer(message);
+    const auto hash = endpoint.offer(handed->message);
     if (!hash) {
       delivery.rejected.push_back(refused(specimen, set.lines[i], hash.error().message));
-      warn_about(delivery.rejected.back(), folder);
+      warn_about(delivery.rejected.back(), options.set);
       continue;
     }
     offered.hashes.push_back(*hash);
-    offered.specimens.emplace(*hash, specimen.specimen);
-    if (held.validation_agent.contains(specimen.specimen)) offered.repeated.insert(*hash);
+    offered.specimens.emplace(*hash, Offered::Specimen{specimen.specimen, handed->report, handed->is_repeated});
   }
   return offered;
 }
@@ -116,26 +129,40 @@ SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, cons
   const auto endpoint = speak(run, "inject");
   SetDelivery delivery;
   delivery.rejected = set.rejected;
-  const auto [hashes, specimens, repeated] = offer_specimens(run, held_before, set, options.set, *endpoint, delivery);
+  const auto [hashes, specimens] = offer_specimens(run, held_before, set, options, *endpoint, delivery);
   if (hashes.empty() && delivery.conflicting.empty())
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
   wait_for_receivers(*endpoint, hashes, options.timeout_s);
   // Another program may have brought the same names meanwhile: what a node wrote down first stays.
   const HeldMeasurements held = held_measurements(run);
   for (const std::string& hash : hashes) {
-    const std::string& specimen = specimens.at(hash);
-    const auto reason = against_measurement(held, specimen, hash), refusal = endpoint->refusal_of(hash);
+    const auto& [name, report, is_repeated] = specimens.at(hash);
+    const auto reason = against_measurement(held, name, report), refusal = endpoint->refusal_of(hash);
     if (reason || refusal) {
       warn(reason ? *reason : fmt::format("{}. {}", *refusal, advice_on_refused("MEASUREMENT")));
-      delivery.conflicting.push_back(specimen);
+      delivery.conflicting.push_back(name);
       continue;
     }
     std::set<std::string> missing = endpoint->waiting_for(hash);
-    ++(!missing.empty() ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
+    const bool amends = report.amendment.revision > 0;
+    ++(!missing.empty() ? delivery.unanswered
+       : is_repeated    ? delivery.repeated
+       : amends         ? delivery.amended
+                        : delivery.accepted);
     delivery.unanswered_by.merge(missing);
   }
   std::ranges::stable_sort(delivery.rejected, {}, &measurement::RejectedRow::line);
   return delivery;
+}
+
+/// An amendment puts no review aside: a specimen that was not valid needs another one.
+void say_still_invalid(const measurement::MeasurementSet& set, const game::MeasurementBook& book) {
+  for (const measurement::SpecimenRecord& specimen : set.specimens) {
+    const game::Review* review = book.review_of(specimen.specimen);
+    if (review == nullptr || review->valid || !specimen.valid) continue;
+    remark(fmt::format("{} stays not valid ({}: {}): nacre review {} --valid --why REASON lets it count",
+                       specimen.specimen, review->by, review->why, specimen.specimen));
+  }
 }
 
 int inject(const InjectOptions& options) {
@@ -148,6 +175,7 @@ int inject(const InjectOptions& options) {
   for (const std::string& doubt : doubts_about(run, view, set.specimens)) warn(doubt);
   const SetDelivery delivery = send(run, held, set, options);
   print_delivery(delivery, options.json);
+  if (delivery.amended > 0) say_still_invalid(set, view.facts.book);
   if (delivery.unanswered > 0) say_unanswered(delivery.unanswered_by, options.timeout_s);
   return delivery.unanswered > 0 || !delivery.conflicting.empty() ? 1 : 0;
 }
@@ -159,6 +187,9 @@ void add_inject(CLI::App& app, Action& action) {
   CLI::App& command = add_command(app, action, "inject", "Hand measurements to a running game", options, inject);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   add_run_option(command, options->run);
+  command.add_option("--reason", options->reason,
+                     "Why specimens that the run has with other values are amended; without, they are refused");
+  command.add_option("--by", options->by, "Who amends")->default_str("your account");
   command
       .add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the nodes that take measurements")
       ->check(CLI::Range(0.1, 1e6))

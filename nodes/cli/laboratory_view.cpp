@@ -99,6 +99,7 @@ void LaboratoryReader::read_journal(const std::function<void(const std::string& 
     view_ = nullptr;
     known_ = {};
     proposals_.clear();
+    given_again_.clear();
     last_round_ = -1;
   }
   game::LaboratoryFacts& facts = known_.facts;
@@ -110,9 +111,25 @@ void LaboratoryReader::read_journal(const std::function<void(const std::string& 
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) facts.proposed.push_back({family.round, design.pattern});
   };
-  const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
+  const auto is_ordered = [&](const std::string& id) {
+    return std::ranges::find(facts.orders, id, &game::Order::id) != facts.orders.end();
+  };
+  // Given again is what the agent sends again: of a round that is measured it does not.
+  const auto take_order = [&](const wire::TestOrder& order) {
+    if (!is_ordered(order.order_id)) return facts.orders.push_back(order_of(order));
+    if (const auto said = given_again_.extract(order.order_id)) facts.withdrawals.enter(order.order_id, said.mapped());
+  };
+  const auto take_withdrawal = [&](const wire::Withdrawal& said) {
+    const game::Withdrawal word{said.revision, said.withdrawn, said.by, said.why};
+    if (!said.withdrawn) {
+      given_again_.insert_or_assign(said.order_id, word);
+    } else if (is_ordered(said.order_id)) {
+      facts.withdrawals.enter(said.order_id, word);
+    }
+  };
   const auto take_measurement = [&](const wire::Measurement& one) {
-    if (one.fidelity == run_.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
+    if (one.fidelity == run_.scenario.fidelity)
+      facts.book.enter(with_history_of_note(one.record), one.order_id, {one.revision, one.by, one.why});
   };
   const auto take_model = [&](const wire::AdoptedModel& model) { known_.model = model.parameters; };
   const auto take_round = [&](const wire::RoundSummary& round) {
@@ -131,7 +148,8 @@ void LaboratoryReader::read_journal(const std::function<void(const std::string& 
                     if (measured) measured(payload);
                   })},
                  {"REVIEW", noted([&](const std::string& payload) { take_review(payload, facts.book); })},
-                 {"APPROVAL", noted([&](const std::string& payload) { take_approval(payload, facts); })}},
+                 {"APPROVAL", noted([&](const std::string& payload) { take_approval(payload, facts); })},
+                 {"WITHDRAWAL", noted(each<wire::Withdrawal>(take_withdrawal))}},
                 {{"TEST_ORDER", noted(each<wire::TestOrder>(take_order))},
                  {"FAMILY", noted(each<wire::CalibratedFamily>(take_family))},
                  {"PARAMETERS", noted(each<wire::AdoptedModel>(take_model))},
@@ -151,7 +169,12 @@ LaboratoryView LaboratoryReader::make_view() const {
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);
   for (std::size_t i = 0; i < facts.orders.size(); ++i) {
-    view.orders.push_back({facts.orders[i], printed[i], progress[i].arrived, progress[i].valid, progress[i].complete});
+    view.orders.push_back({.order = facts.orders[i],
+                           .printed = printed[i],
+                           .arrived = progress[i].arrived,
+                           .valid = progress[i].valid,
+                           .complete = progress[i].complete,
+                           .withdrawn = facts.withdrawals.is_withdrawn(facts.orders[i].id)});
   }
   return view;
 }

@@ -25,6 +25,7 @@ struct OrderState {
   int arrived = 0;
   int valid = 0;
   bool complete = false;
+  bool withdrawn = false;
 };
 
 struct LaboratoryView {
@@ -56,6 +57,7 @@ class LaboratoryReader {
   run::JournalMessages journal_;
   LaboratoryView known_;  ///< what the journal says, without settings, orders' progress and what was printed
   std::map<int, wire::Proposal> proposals_;
+  std::map<std::string, game::Withdrawal> given_again_;  ///< said of an order, until the agent gives it again
   int last_round_ = -1;
 };
 

@@ -75,7 +75,7 @@ Delivered deliver(const RunAccess& run, const std::string& name, const runtime::
 
 std::string advice_on_refused(std::string_view channel) {
   if (channel == "MEASUREMENT")
-    return "What the run has stays: hand yours in under a new name, or review the one that is there.";
+    return "What the run has stays: hand yours in under a new name, amend what is there (--reason), or review it.";
   return "What the run has stays: `nacre designs` and the dashboard's laboratory show how far each design is.";
 }
 

@@ -8,12 +8,12 @@
 #include "families/families_file.hpp"
 #include "laboratory_view.hpp"
 #include "measurement/specimen_checks.hpp"
+#include "measurement/typed_specimen.hpp"
 #include "output.hpp"
 #include "runtime/log_pieces.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/convert.hpp"
-#include "wire/header.hpp"
 
 namespace nacre::cli {
 
@@ -86,16 +86,48 @@ std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord
   return doubts;
 }
 
-Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
-  const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
-  const auto known = hashes_by_specimen(run_);
-  const auto same_name = known.find(specimen.specimen);
-  if (same_name == known.end()) return hand_in(message);
-  if (same_name->second != wire::message_hash(message.channel, message.payload)) return {Delivery::conflicting};
-  // The validation agent has it, the analyser may have been away.
-  Answer answer = hand_in(message);
-  if (answer.delivery == Delivery::accepted) answer.delivery = Delivery::repeated;
+Answer RunDesk::enter(const measurement::SpecimenRecord& specimen, const std::optional<game::Amendment>& amend) {
+  const auto handed = cli::hand_in(held_measurements(run_), specimen, run_.scenario.fidelity, amend);
+  if (!handed) return {Delivery::conflicting};
+  // Of a repeated one, too: the validation agent has it, the analyser may have been away.
+  Answer answer = hand_in(handed->message);
+  if (answer.delivery == Delivery::accepted && handed->is_repeated) answer.delivery = Delivery::repeated;
   return answer;
+}
+
+Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) { return enter(specimen, std::nullopt); }
+
+Result<measurement::SpecimenRecord> RunDesk::amended(const dashboard::Amendment& amendment) {
+  const std::vector<game::Report> reports = reader_.view()->facts.book.reports_of(amendment.specimen);
+  if (reports.empty()) return fail("specimen: the run has none of the name {}", amendment.specimen);
+  auto specimen = measurement::with_changes(reports.back().record, amendment.changes);
+  if (!specimen) return fail("{}: {}", specimen.error().column, specimen.error().reason);
+  return *std::move(specimen);
+}
+
+Answer RunDesk::amend(const measurement::SpecimenRecord& specimen, const std::string& by, const std::string& why) {
+  return enter(specimen, game::Amendment{.by = by, .why = why});
+}
+
+std::optional<std::string> RunDesk::against(const dashboard::Withdrawal& withdrawal) {
+  const auto view = reader_.view();
+  if (!withdrawal.order.empty()) return game::why_void(view->facts, withdrawal.order, withdrawal.withdrawn);
+  const Result<pattern::Design> design = pattern::design_from_name(withdrawal.design);
+  if (!design) return design.error().message;
+  return game::why_void(view->facts, *design, withdrawal.withdrawn);
+}
+
+Answer RunDesk::withdraw(const dashboard::Withdrawal& withdrawal) {
+  std::vector<std::string> orders = {withdrawal.order};
+  if (withdrawal.order.empty())  // against() has read the design
+    orders = game::orders_to_change(reader_.view()->facts, expected(pattern::design_from_name(withdrawal.design)),
+                                    withdrawal.withdrawn);
+  for (const std::string& order : orders) {
+    const Answer answer = hand_in(withdrawal_message(
+        run_, order, {.withdrawn = withdrawal.withdrawn, .by = withdrawal.by, .why = withdrawal.why}));
+    if (answer.delivery != Delivery::accepted) return answer;
+  }
+  return {};
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& review) {

@@ -19,11 +19,17 @@ class RunDesk : public dashboard::Desk {
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
   dashboard::Answer review(const dashboard::SpecimenReview& review) override;
   dashboard::Answer decide(const dashboard::Approval& approval) override;
+  Result<measurement::SpecimenRecord> amended(const dashboard::Amendment& amendment) override;
+  dashboard::Answer amend(const measurement::SpecimenRecord& specimen, const std::string& by,
+                          const std::string& why) override;
+  dashboard::Answer withdraw(const dashboard::Withdrawal& withdrawal) override;
   std::optional<std::string> against(const dashboard::SpecimenReview& review) override;
   std::optional<std::string> against(const dashboard::Approval& approval) override;
+  std::optional<std::string> against(const dashboard::Withdrawal& withdrawal) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) override;
 
  private:
+  dashboard::Answer enter(const measurement::SpecimenRecord& specimen, const std::optional<game::Amendment>& amend);
   /// Sends it, if anybody is there to hear it.
   dashboard::Answer hand_in(const runtime::Message& message);
   /// The run on the port that it plays on now.

@@ -5,38 +5,59 @@
 #include <optional>
 #include <string>
 
+#include "base/result.hpp"
+#include "game/measurement_book.hpp"
+#include "game/withdrawal_book.hpp"
 #include "measurement/specimen_record.hpp"
 #include "run_access.hpp"
 #include "runtime/node_core.hpp"
 
 namespace nacre::cli {
 
-/// MEASUREMENT of a specimen that nacre did not order by name; long curves thinned, history in the note.
-runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity);
-
 /// The specimen of a message with what its note says of its history in the columns that it came from, too.
 measurement::SpecimenRecord with_history_of_note(measurement::SpecimenRecord specimen);
 
-/// Content hashes of the measurements that the nodes which keep them have, by specimen; the first one of a name counts.
-/// Empty of a node whose journal is not on this machine.
+/// The report of a specimen that counts at a node, without its values.
+struct HeldReport {
+  int round = -1;  ///< that it was ordered in, and by which order
+  std::string order_id = {};
+  game::Amendment amendment = {};
+  std::string content = {};  ///< hash of its values alone
+};
+using HeldReports = std::map<std::string, HeldReport>;  ///< by specimen
+
+/// What the nodes that keep measurements have. Empty of a node whose journal is not on this machine.
 struct HeldMeasurements {
-  std::map<std::string, std::string> validation_agent;
-  std::map<std::string, std::string> analyser;
+  HeldReports validation_agent;
+  HeldReports analyser;
 };
 /// Enters the payload of a MEASUREMENT that a node took in; those of another fidelity it refused.
-void enter(std::map<std::string, std::string>& held, const std::string& payload, tester::Fidelity fidelity);
-std::map<std::string, std::string> held_by_analyser(const RunAccess& run);
+void enter(HeldReports& held, const std::string& payload, tester::Fidelity fidelity);
+HeldReports held_by_analyser(const RunAccess& run);
 HeldMeasurements held_measurements(const RunAccess& run);
 
-/// Why a node that has another measurement of the specimen's name keeps it, with what to do, as a sentence; nothing
-/// where this one, by its hash, can be the specimen's at both.
-std::optional<std::string> against_measurement(const HeldMeasurements& held, const std::string& specimen,
-                                               const std::string& hash);
+/// A specimen on its way into a run.
+struct HandIn {
+  runtime::Message message;
+  HeldReport report;         ///< that it becomes
+  bool is_repeated = false;  ///< the validation agent has it already
+};
 
-/// All that is held, by specimen: what the validation agent has, else what reached the analyser alone.
-std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run);
+/// How a specimen is handed in: as the report that is held of it where that has the same values, as its amendment by
+/// `amend` (by whom and why, its revision is found) where it has others. Error, with what to do: others are held, and
+/// nobody amends them.
+Result<HandIn> hand_in(const HeldMeasurements& held, const measurement::SpecimenRecord& specimen,
+                       tester::Fidelity fidelity, const std::optional<game::Amendment>& amend = {});
+
+/// Why a node that has another measurement of the specimen's name goes by that one, with what to do, as a sentence;
+/// nothing where `report` can be the specimen's at both.
+std::optional<std::string> against_measurement(const HeldMeasurements& held, const std::string& specimen,
+                                               const HeldReport& report);
 
 /// The highest revision of each specimen's reviews so far: a review of one more wins.
 std::map<std::string, int> highest_revisions(const RunAccess& run);
+
+/// WITHDRAWAL of an order, its revision one more than the highest so far.
+runtime::Message withdrawal_message(const RunAccess& run, const std::string& order_id, const game::Withdrawal& said);
 
 }  // namespace nacre::cli

@@ -46,6 +46,13 @@ bool OrderDesk::refused(const pattern::Design& design) const {
                      [&](const auto& entry) { return entry.first.second == design.name() && !entry.second.approved; });
 }
 
+bool OrderDesk::withdrawn(const game::DiscriminationTest& experiment) const {
+  return std::ranges::any_of(orders_, [&](const game::Order& order) {
+    return order.design == experiment.design && order.test == experiment.test && order.loading == experiment.loading &&
+           game::fulfils(experiment.conditions, order.conditions) && withdrawals_.is_withdrawn(order.id);
+  });
+}
+
 std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::Design> designs,
                                                std::vector<game::DiscriminationTest> experiments) {
   round_ = round;
@@ -61,7 +68,8 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
   }
   add(orders_for(approved_of(designs)));
   add(take_own(designs, orders));
-  std::erase_if(experiments, [&](const game::DiscriminationTest& each) { return refused(each.design); });
+  std::erase_if(experiments,
+                [&](const game::DiscriminationTest& each) { return refused(each.design) || withdrawn(each); });
   if (scenario_.budget != game::BudgetSettings{}) {
     for (game::DiscriminationTest& each : experiments)
       each.replicates = std::min(each.replicates, allowed().validation.replicates);
@@ -136,17 +144,39 @@ Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& desig
   return std::vector<game::Order>{};
 }
 
+Result<std::vector<game::Order>> OrderDesk::take_withdrawal(const std::string& order_id,
+                                                            const game::Withdrawal& withdrawal, int measured_round) {
+  const auto order = std::ranges::find(orders_, order_id, &game::Order::id);
+  if (order == orders_.end()) return fail("there is no order {}", order_id);
+  if (order->round <= measured_round)
+    return fail("round {} of order {} is measured: its model is being calibrated, or was", order->round, order_id);
+  if (!withdrawals_.enter(order_id, withdrawal)) {
+    const game::Withdrawal& held = *withdrawals_.of(order_id);
+    if (held == withdrawal) return std::vector<game::Order>{};
+    return fail("order {} was {} before by {} (revision {}): {}", order_id,
+                held.withdrawn ? "withdrawn" : "given again", held.by, held.revision, held.why);
+  }
+  return withdrawal.withdrawn ? std::vector<game::Order>{} : std::vector{*order};
+}
+
 std::vector<game::Order> OrderDesk::open(const game::MeasurementBook& book) const {
   const auto progress = book.progress(orders_, scenario_.validation.enough_valid);
   std::vector<game::Order> open;
   for (std::size_t order = 0; order < orders_.size(); ++order)
-    if (orders_[order].round == round_ && !progress[order].complete) open.push_back(orders_[order]);
+    if (orders_[order].round == round_ && !progress[order].complete && !withdrawals_.is_withdrawn(orders_[order].id))
+      open.push_back(orders_[order]);
   return open;
 }
 
 std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) const {
-  const auto all = static_cast<int>(std::ranges::count(orders_, round_, &game::Order::round));
-  return {all - static_cast<int>(open(book).size()), all};
+  const auto progress = book.progress(orders_, scenario_.validation.enough_valid);
+  int complete = 0, all = 0;
+  for (std::size_t order = 0; order < orders_.size(); ++order) {
+    if (orders_[order].round != round_) continue;
+    complete += progress[order].complete;
+    all += progress[order].complete || !withdrawals_.is_withdrawn(orders_[order].id);
+  }
+  return {complete, all};
 }
 
 std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenRecord& specimen,

@@ -12,6 +12,7 @@
 #include "game/measurement_book.hpp"
 #include "game/rounds.hpp"
 #include "game/scenario.hpp"
+#include "game/withdrawal_book.hpp"
 
 namespace nacre::validation_agent {
 
@@ -50,6 +51,12 @@ class OrderDesk {
   /// the next one. Returns orders that go out at once, or why there are none.
   Result<std::vector<game::Order>> add_own(const pattern::Design& design, bool now);
 
+  /// An order is not to be made, or is after all: its round closes without it, or waits for it. What was measured of it
+  /// counts all the same. `measured_round`: the last one that is measured; its orders stay. Returns the orders to be
+  /// given again, or why it changes nothing.
+  Result<std::vector<game::Order>> take_withdrawal(const std::string& order_id, const game::Withdrawal& withdrawal,
+                                                   int measured_round);
+
   /// Number of proposed designs of the open round that still wait for a person.
   int awaiting_approval() const { return waiting_.size(); }
 
@@ -59,10 +66,10 @@ class OrderDesk {
   /// Orders of all rounds.
   const std::vector<game::Order>& orders() const { return orders_; }
 
-  /// Orders of the open round that are not complete.
+  /// Orders of the open round that are neither complete nor withdrawn.
   std::vector<game::Order> open(const game::MeasurementBook& book) const;
 
-  /// Orders of the open round that are complete, and how many there are.
+  /// Orders of the open round that are complete, and how many there are, without those that were withdrawn before.
   std::pair<int, int> completed(const game::MeasurementBook& book) const;
 
   /// Why a specimen does not count for the order whose id it carries, or for that of its design and test, as a
@@ -80,6 +87,8 @@ class OrderDesk {
   std::vector<pattern::Design> approved_of(const std::vector<pattern::Design>& designs);
   std::vector<game::Order> orders_for(std::span<const pattern::Design> designs) const;
   bool refused(const pattern::Design& design) const;
+  /// Whether an order of the same test was withdrawn.
+  bool withdrawn(const game::DiscriminationTest& experiment) const;
   bool is_placed(const std::string& order_id) const;
   /// The scenario as the budget allows the present round.
   game::Scenario allowed() const;
@@ -93,6 +102,7 @@ class OrderDesk {
   std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;
   std::map<std::pair<int, std::string>, Approval> approvals_;  // by round of the proposal and design
+  game::WithdrawalBook withdrawals_;
 };
 
 }  // namespace nacre::validation_agent

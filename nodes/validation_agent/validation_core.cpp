@@ -51,6 +51,7 @@ void ValidationCore::accept_message(const runtime::Message& message) {
       {"MEASUREMENT", &ValidationCore::accept_measurement},
       {"REVIEW", &ValidationCore::accept_review},
       {"APPROVAL", &ValidationCore::accept_approval},
+      {"WITHDRAWAL", &ValidationCore::accept_withdrawal},
   };
   if (const auto accept = kAccept.find(message.channel); accept != kAccept.end())
     (this->*accept->second)(message.payload);
@@ -125,6 +126,16 @@ void ValidationCore::take_diagnosis(const wire::Diagnosis& diagnosis) {
   weigh(diagnosis);
 }
 
+namespace {
+
+std::string conflict_in_words(const wire::Measurement& measured) {
+  const std::string revision = measured.revision == 0 ? "it" : fmt::format("revision {} of it", measured.revision);
+  return fmt::format("specimen {} is refused: {} was reported before with other content", measured.record.specimen,
+                     revision);
+}
+
+}  // namespace
+
 void ValidationCore::accept_measurement(const std::string& payload) {
   const auto measured = wire::read<wire::Measurement>(payload);
   if (!measured) return say(LogLevel::warning, "a MEASUREMENT is ignored: " + measured.error().message);
@@ -138,14 +149,20 @@ void ValidationCore::accept_measurement(const std::string& payload) {
     early_measurements_[measured->round].push_back(payload);
     return say(LogLevel::info, fmt::format("specimen {} waits for round {}", record.specimen, measured->round));
   }
-  switch (book_.enter(record, measured->order_id)) {
+  switch (book_.enter(record, measured->order_id, {measured->revision, measured->by, measured->why})) {
     case game::MeasurementBook::Receipt::repeated:
       return;
+    case game::MeasurementBook::Receipt::superseded:
+      return say(LogLevel::info, fmt::format("specimen {}: revision {} is kept, a later one counts", record.specimen,
+                                             measured->revision));
     case game::MeasurementBook::Receipt::conflicting:
-      return refuse(fmt::format("specimen {} is refused: it was reported before with other content", record.specimen));
+      return refuse(conflict_in_words(*measured));
     case game::MeasurementBook::Receipt::accepted:
       break;
   }
+  if (measured->revision > 0)
+    say(LogLevel::info, fmt::format("{} amends specimen {} (revision {}): {}", measured->by, record.specimen,
+                                    measured->revision, measured->why));
   const std::string what =
       fmt::format("specimen {} of {}, {} test", record.specimen, record.design.name(), tester::to_string(record.test));
   if (record.valid) {
@@ -188,6 +205,19 @@ void ValidationCore::accept_approval(const std::string& payload) {
   if (!orders) return refuse("an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
                                   design.name(), approval->why));
+  send_orders(*orders);
+  if (phase_ == Phase::measuring) measure_on();
+}
+
+void ValidationCore::accept_withdrawal(const std::string& payload) {
+  const auto said = wire::read<wire::Withdrawal>(payload);
+  if (!said) return say(LogLevel::warning, "a WITHDRAWAL is ignored: " + said.error().message);
+  const bool is_measured = phase_ != Phase::measuring && phase_ != Phase::predicting_trial;
+  const auto orders = desk_.take_withdrawal(said->order_id, {said->revision, said->withdrawn, said->by, said->why},
+                                            is_measured ? round_ : round_ - 1);
+  if (!orders) return refuse("a WITHDRAWAL changes nothing: " + orders.error().message);
+  say(LogLevel::info, fmt::format("{} {} order {}: {}", said->by, said->withdrawn ? "withdraws" : "gives again",
+                                  said->order_id, said->why));
   send_orders(*orders);
   if (phase_ == Phase::measuring) measure_on();
 }

@@ -80,6 +80,7 @@ class ValidationCore : public runtime::NodeCore {
   void accept_measurement(const std::string& payload);
   void accept_review(const std::string& payload);
   void accept_approval(const std::string& payload);
+  void accept_withdrawal(const std::string& payload);
   void accept_work(const runtime::WorkDone& work);
   void add_own_design(const wire::Approval& approval);
 
@@ -146,6 +147,7 @@ class ValidationCore : public runtime::NodeCore {
 
   // Of the present round. The specimens are those that its calibration saw: later ones belong to the next round.
   std::vector<measurement::SpecimenRecord> specimens_;
+  std::map<std::string, int> revisions_;  // of those specimens
   std::vector<measurement::Replicates> calibration_set_;
   FarmRequests farm_;
   std::optional<Fitting> fitting_;

@@ -97,6 +97,7 @@ void ValidationCore::measure_on() {
   if (desk_.awaiting_approval() > 0 || complete < all) return;
   if (families_) return finish_families();
   specimens_ = book_.specimens();
+  revisions_ = book_.revisions();
   calibration_set_ = game::calibration_set(specimens_);
   say(LogLevel::info,
       fmt::format("round {}: measured, {} to calibrate on", round_, counted(std::ssize(calibration_set_), "design")));
@@ -214,7 +215,10 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
 void ValidationCore::diagnose() {
   wire::DiagnoseRequest request{.round = round_, .fidelity = scenario_.fidelity, .parameters = model_, .specimens = {}};
   const std::size_t room = wire::kMaximumBlankPayload - wire::write(request).size();
-  request.specimens = game::specimens_to_name(specimens_, room);
+  for (std::string& name : game::specimens_to_name(specimens_, room)) {
+    const int revision = revisions_.at(name);
+    request.specimens.push_back({std::move(name), revision});
+  }
   const auto valid = std::ranges::count_if(specimens_, &measurement::SpecimenRecord::valid);
   if (std::cmp_less(request.specimens.size(), valid)) {
     say(LogLevel::warning,

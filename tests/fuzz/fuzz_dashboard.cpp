@@ -45,6 +45,8 @@ dashboard::SeveralRuns& page() {
   desk.specimens.clear();
   desk.reviews.clear();
   desk.approvals.clear();
+  desk.withdrawals.clear();
+  desk.amendments.clear();
   desk.groupings.clear();
   return page;
 }
@@ -69,6 +71,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto review = dashboard::specimen_review_from_json(request.body))
     fuzz::expect(!review->why.empty() && review->why.size() <= 500);
   if (const auto approval = dashboard::approval_from_json(request.body)) fuzz::expect(approval->round >= -1);
+  if (const auto amendment = dashboard::amendment_from_json(request.body))
+    fuzz::expect(!amendment->why.empty() && !amendment->changes.empty());
+  if (const auto withdrawal = dashboard::withdrawal_from_json(request.body))
+    fuzz::expect(withdrawal->order.empty() != withdrawal->design.empty());
   (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
     for (const families::SeedFamily& family : *grouping)

@@ -11,6 +11,7 @@
 #include "game/rounds.hpp"
 #include "in_process_game.hpp"
 #include "pattern/coupons.hpp"
+#include "person_game.hpp"
 #include "stand_ins.hpp"
 #include "validation_agent/order_desk.hpp"
 
@@ -26,36 +27,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
-
-// A game that a person measures for: nothing measures what is ordered by itself.
-class PersonGame : public testing::Test {
- protected:
-  PersonGame() {
-    scenario_.rounds = 1;
-    scenario_.laboratory.virtual_lab = false;
-  }
-  void begin() {
-    add_players(game_, scenario_);
-    game_.announce(scenario_);
-    game_.play();
-  }
-  void report(const wire::Measurement& measured) {
-    game_.publish("MEASUREMENT", measured);
-    game_.play();
-  }
-  std::vector<wire::Measurement> all_measurements() const {
-    std::vector<wire::Measurement> all;
-    for (const auto& order : game_.sent<wire::TestOrder>("TEST_ORDER")) {
-      for (auto& measured : measure(order, {})) all.push_back(std::move(measured));
-    }
-    return all;
-  }
-  std::size_t rounds() const { return game_.payloads("ROUND").size(); }
-  wire::RoundSummary last_round() const { return game_.sent<wire::RoundSummary>("ROUND").back(); }
-
-  game::Scenario scenario_ = small_scenario();
-  InProcessGame game_;
-};
 
 TEST_F(PersonGame, WaitsForTheLastSpecimenHoweverItIsReported) {
   begin();
@@ -78,9 +49,7 @@ TEST_F(PersonGame, WaitsForTheLastSpecimenHoweverItIsReported) {
 TEST_F(PersonGame, TheOrderOfMeasurementsDoesNotMatter) {
   begin();
   InProcessGame other;
-  add_players(other, scenario_);
-  other.announce(scenario_);
-  other.play();
+  begin(other);
   auto all = all_measurements();
   for (const auto& measured : all) report(measured);
   std::reverse(all.begin(), all.end());
@@ -107,9 +76,7 @@ TEST_F(PersonGame, RepeatsAreIgnoredAndContradictionsRefused) {
   ASSERT_EQ(rounds(), 2u);
   const auto reference = last_round();
   InProcessGame clean;
-  add_players(clean, scenario_);
-  clean.announce(scenario_);
-  clean.play();
+  begin(clean);
   for (const auto& measured : all) clean.publish("MEASUREMENT", measured);
   clean.play();
   EXPECT_EQ(clean.sent<wire::RoundSummary>("ROUND").back(), reference);

@@ -1,5 +1,6 @@
 // What a person with a printer and a testing machine types: print files, imports, reviews, states of designs.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,8 +12,11 @@
 
 #include "base/files.hpp"
 #include "measurement/read_set.hpp"
+#include "measurement/summary.hpp"
+#include "measurement/write_set.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
+#include "run/run.hpp"
 
 namespace nacre {
 namespace {
@@ -269,6 +273,94 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   EXPECT_GE(next["expected"]["mean_gpa_mpa"].get<double>(), 0.0);
   EXPECT_THAT(next["sentence"].get<std::string>(), HasSubstr("round 2 is expected to bring "));
   EXPECT_EQ(next["price"]["specimens"], 4) << "one design in two tests, twice";
+}
+
+/// What `nacre inject` says to one specimen.
+Outcome inject_one(const fs::path& set, const measurement::SpecimenRecord& specimen, const fs::path& run,
+                   const std::vector<std::string>& more = {}) {
+  fs::remove_all(set);
+  measurement::write_measurement_set(set, {specimen});
+  std::vector<std::string> arguments = {"inject", set.string(), "--run", run.string(), "--by", "a person"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_nacre(arguments, 60.0);
+}
+
+TEST(LaboratoryGame, WhatCannotBeMadeIsWithdrawnWhatWasMistypedIsAmendedAndTheGameEnds) {
+  const fs::path folder = fresh_folder("corrections");
+  PersonsGame person(folder, "corrections", kScenario);
+  const std::string run = person.run().string();
+  person.wait_for("orders of the base materials", [&] { return person.orders().size() == 6; });
+  person.decide(
+      {"approve", "--withdraw", "r1/rigid/modulus", "--reason", "a jam"});  // base materials are ordered early
+  person.wait_for("a proposal", [&] { return !person.rounds().empty(); });
+  person.decide({"approve", "--undo", "r1/rigid/modulus"});
+  const std::string proposed = person.proposals().at(0).designs.at(0).design.name(), own = "3ffc9b4ad4d2d9";
+  EXPECT_THAT(person.decide({"approve", "--withdraw", proposed, "--reason", "too thin"}, 1),
+              HasSubstr("waits for approval: reject it instead"));
+  person.decide({"approve", proposed});
+  person.decide({"approve", "--add", own});
+  person.wait_for("orders of both designs", [&] { return person.orders().size() == 10; });
+
+  person.decide({"approve", "--withdraw", proposed}, 2);  // without a reason
+  EXPECT_THAT(person.decide({"approve", "--withdraw", proposed, "--reason", "cannot be printed"}),
+              HasSubstr(proposed + ": 2 orders withdrawn"));
+  EXPECT_EQ(states(person.run()).at(proposed), "withdrawn");
+  EXPECT_THAT(run_nacre({"designs", "--run", run}).out, HasSubstr("a person: cannot be printed"));
+  EXPECT_THAT(person.decide({"approve", "--undo", proposed}), HasSubstr(proposed + ": 2 orders given again"));
+  EXPECT_EQ(states(person.run()).at(proposed), "approved");
+  const std::string toughness = "r1/soft/toughness";
+  for (const std::string& each : {proposed, toughness})
+    person.decide({"approve", "--withdraw", each, "--reason", "cannot be printed"});
+  EXPECT_THAT(person.decide({"approve", "--withdraw", toughness, "--reason", "again"}, 1),
+              HasSubstr("was withdrawn by a person: cannot be printed"));
+  person.decide({"approve", "--withdraw", "r1/nothing/modulus", "--reason", "?"}, 2);
+  const Outcome job = run_nacre(
+      {"fabricate", "--orders", "--run", run, "--out", (folder / "job").string(), "--dpi", "100,100,100"}, 120.0);
+  ASSERT_EQ(job.status, 0) << job.err;
+  EXPECT_THAT(job.out, AllOf(HasSubstr(own), HasSubstr("soft-modulus"), Not(HasSubstr(proposed)),
+                             Not(HasSubstr("soft-toughness"))));
+
+  person.game().kill_everything();
+  EXPECT_EQ(states(person.run()).at(proposed), "withdrawn");
+  PlayedGame resumed(person.run());
+  std::vector<measurement::SpecimenRecord> specimens = person.measured_in_laboratory();
+  std::erase_if(specimens, [&](const measurement::SpecimenRecord& each) {
+    return each.design.name() == proposed || (each.design.name() == "soft" && each.test == tester::TestKind::toughness);
+  });
+  const auto correct = std::ranges::find_if(specimens, [&](const measurement::SpecimenRecord& each) {
+    return each.design.name() == own && each.test == tester::TestKind::modulus;
+  });
+  measurement::SpecimenRecord mistyped = *correct;
+  mistyped.modulus_pa = *measurement::modulus_of(*correct) / 10.0;
+  EXPECT_THAT(inject_one(folder / "one", mistyped, person.run()).out, HasSubstr("1 accepted"));
+  const Outcome refused = inject_one(folder / "one", *correct, person.run());
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, HasSubstr("`nacre inject` with --reason TEXT to amend it"));
+  const Outcome amended = inject_one(folder / "one", *correct, person.run(), {"--reason", "decimal point"});
+  EXPECT_THAT(amended.out, HasSubstr("0 accepted, 1 amended")) << amended.err;
+  EXPECT_THAT(inject_one(folder / "one", *correct, person.run()).out, HasSubstr("1 repeated"));
+  EXPECT_THAT(inject_one(folder / "one", mistyped, person.run()).err,
+              HasSubstr("(amended by a person: decimal point)"));
+  inject(folder / "all", specimens, person.run());
+  EXPECT_TRUE(resumed.play_to_end(240.0)) << resumed.said();
+
+  EXPECT_EQ(person.rounds().size(), 2U);
+  EXPECT_EQ(person.rounds().back().calibration_count, 1) << "the person's design";
+  EXPECT_EQ(states(person.run()).at(proposed), "withdrawn");
+  EXPECT_EQ(states(person.run()).at("soft"), "withdrawn");
+  EXPECT_EQ(states(person.run()).at(own), "measured");
+  for (const char* node : {"validation_agent", "analyser"})
+    EXPECT_EQ(run_nacre({"replay", run, "--node", node}).status, 0) << node;
+  const auto record = run::Run(person.run()).record();
+  const auto kept = std::ranges::find_if(
+      record->specimens, [&](const run::MeasuredSpecimen& each) { return each.record.specimen == correct->specimen; });
+  ASSERT_NE(kept, record->specimens.end());
+  EXPECT_EQ(kept->amendment.why, "decimal point");
+  EXPECT_DOUBLE_EQ(*measurement::modulus_of(kept->record), *measurement::modulus_of(*correct));
+  std::vector<int> revisions;
+  for (const wire::Measurement& taken : measurements_taken(person.run()))
+    if (taken.record.specimen == correct->specimen) revisions.push_back(taken.revision);
+  EXPECT_EQ(revisions, (std::vector<int>{0, 1})) << "the mistyped value stays in the run";
 }
 
 }  // namespace

@@ -263,6 +263,23 @@ export interface Order {
   valid: number;
   complete: boolean;
   reason: string;
+  withdrawn: boolean;
+  by: string;
+  why: string;
+}
+
+export interface EarlierReport {
+  revision: number;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  by: string;
+  why: string;
 }
 
 export interface LaboratorySpecimen {
@@ -281,6 +298,9 @@ export interface LaboratorySpecimen {
   note: string;
   by: string;
   why: string;
+  amended_by: string;
+  amended_why: string;
+  earlier: EarlierReport[];
 }
 
 export interface ProposedOutlier {

@@ -20,6 +20,7 @@ namespace {
 
 using runtime::Message;
 using runtime::Outputs;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -62,8 +63,11 @@ struct Watched {
   }
 };
 
-std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1, double modulus_pa = 1e9) {
+std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1, double modulus_pa = 1e9,
+                           int revision = 0) {
   wire::Measurement m;
+  m.revision = revision;
+  m.by = m.why = revision > 0 ? "Ada" : "";
   m.fidelity = game::Scenario{}.fidelity;
   m.round = round;
   m.record.specimen = specimen;
@@ -88,12 +92,20 @@ std::string coupon_of(const std::string& specimen, const char* material, double 
   return wire::write(m);
 }
 
-std::string request_of(std::vector<std::string> specimens) {
+/// Of specimens in the revision that is meant.
+std::string request_of_revisions(std::vector<wire::NamedSpecimen> specimens) {
   wire::DiagnoseRequest request;
   request.round = 1;
   request.parameters = material::default_parameters();
   request.specimens = std::move(specimens);
   return wire::write(request);
+}
+
+/// Of specimens that were never amended.
+std::string request_of(const std::vector<std::string>& names) {
+  std::vector<wire::NamedSpecimen> specimens;
+  for (const std::string& name : names) specimens.push_back({name, 0});
+  return request_of_revisions(std::move(specimens));
 }
 
 std::string model_of(int round, double factor = 1.0) {
@@ -233,6 +245,22 @@ TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   EXPECT_EQ(analyser.core.status().round, 1);
 }
 
+TEST(Analyser, ADiagnosisRestsOnTheRevisionThatWasMeant) {
+  const auto diagnosed = [](const std::vector<wire::NamedSpecimen>& meant) {
+    Watched analyser;
+    analyser.receive("MEASUREMENT", measurement_of("a", 5));
+    analyser.receive("DIAGNOSE", request_of_revisions(meant));
+    analyser.receive("MEASUREMENT", measurement_of("a", 5, 1, 2e9, 1));
+    for (const auto& compute : analyser.computes)
+      if (compute.kind == "diagnose") return compute.spec;
+    return std::string();
+  };
+  const std::string before = diagnosed({{"a", 0}}), after = diagnosed({{"a", 1}});
+  const std::string old_report = measurement_of("a", 5), amended = measurement_of("a", 5, 1, 2e9, 1);
+  EXPECT_THAT(before, AllOf(HasSubstr(old_report), Not(HasSubstr(amended)))) << "the amendment came later";
+  EXPECT_THAT(after, AllOf(HasSubstr(amended), Not(HasSubstr(old_report)))) << "it was waited for";
+}
+
 TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {
   Watched analyser;
   analyser.receive("DIAGNOSE", request_of({"a", "b", "c", "d", "e"}));
@@ -310,11 +338,11 @@ TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
   truth.extensions["rate_dependence"] = {0.5, 12.0};
   for (const auto& record :
        diagnosis::synthetic_coupons(truth, {1e-3, 1e-2, 1e-1}, 3, 0.01, 5, diagnosis::unload_history())) {
-    task.request.specimens.push_back(record.specimen);
+    task.request.specimens.push_back({record.specimen, 0});
     task.measurements.push_back(wire::write(
         wire::Measurement{.round = 1, .order_id = "", .fidelity = tester::Fidelity::tiny, .record = record}));
   }
-  std::ranges::sort(task.request.specimens);
+  std::ranges::sort(task.request.specimens, {}, &wire::NamedSpecimen::name);
   const auto sent = wire::read<wire::Diagnosis>(diagnose_work(diagnosis_spec(task))).value();
   ASSERT_EQ(sent.effects.size(), 2U) << sent.summary;
   const wire::DiagnosedEffect& time_s = sent.effects[1];

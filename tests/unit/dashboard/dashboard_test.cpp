@@ -238,6 +238,34 @@ TEST_F(DashboardOfARun, WhatIsEnteredReachesTheDesk) {
   EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
             200);
   EXPECT_EQ(desk_.specimens.at(0).modulus_pa, 1e6);
+  EXPECT_EQ(post("/api/amendment", R"({"specimen":"a","by":"Ada","why":"typed twice","modulus_pa":2e6})").status, 200);
+  EXPECT_EQ(desk_.amendments.at(0).changes, (std::map<std::string, std::string>{{"modulus_pa", "2000000"}}));
+  EXPECT_EQ(desk_.specimens.at(1).specimen, "a");
+  EXPECT_EQ(post("/api/withdrawal", R"({"order":"r1/soft/modulus","withdrawn":true,"by":"Ada","why":"resin"})").status,
+            200);
+  EXPECT_EQ(desk_.withdrawals.at(0).order, "r1/soft/modulus");
+  desk_.reason_against = "order r1/soft/modulus is complete";
+  EXPECT_EQ(post("/api/withdrawal", R"({"design":"soft","withdrawn":false,"by":"Ada"})").status, 409);
+  EXPECT_EQ(post("/api/amendment", R"({"specimen":"a","by":"Ada","why":"typo","thickness_mm":-1})").status, 400);
+  EXPECT_EQ(desk_.withdrawals.size(), 1u);
+  EXPECT_EQ(desk_.specimens.size(), 2u);
+}
+
+TEST_F(DashboardOfARun, AnAmendedSpecimenShowsWhatItWas) {
+  Laboratory laboratory;
+  measurement::SpecimenRecord record;
+  record.specimen = "s";
+  record.design = pattern::Design(pattern::Pattern(7));
+  record.modulus_pa = 1e8;
+  laboratory.facts.book.enter(record, "");
+  record.modulus_pa = 1e9;
+  laboratory.facts.book.enter(record, "", {1, "Ada", "decimal point"});
+  desk_.picture = std::make_shared<const Laboratory>(std::move(laboratory));
+  const Json specimen = json("/api/laboratory")["specimens"].at(0);
+  EXPECT_EQ(specimen["modulus_pa"], 1e9);
+  EXPECT_EQ(specimen["amended_why"], "decimal point");
+  ASSERT_EQ(specimen["earlier"].size(), 1u);
+  EXPECT_EQ(specimen["earlier"][0]["modulus_pa"], 1e8);
 }
 
 TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {

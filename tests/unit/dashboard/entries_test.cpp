@@ -57,6 +57,26 @@ TEST(Entries, WhatIsNoShallowObjectIsRefused) {
   EXPECT_NE(fault("{\"a\":" + std::string(100'000, '[') + std::string(100'000, ']') + "}"), "none");
 }
 
+TEST(Entries, AnAmendmentNamesWhatChangesAndWhy) {
+  const auto amendment =
+      amendment_from_json(R"({"specimen":"a","by":"Ada","why":"decimal point","modulus_pa":1.2e9,"valid":true})");
+  ASSERT_TRUE(amendment) << amendment.error().message;
+  EXPECT_EQ(amendment->changes, (std::map<std::string, std::string>{{"modulus_pa", "1200000000"}, {"valid", "1"}}));
+  EXPECT_FALSE(amendment_from_json(R"({"specimen":"a","by":"Ada","why":" ","modulus_pa":1.2e9})"));
+  EXPECT_FALSE(amendment_from_json(R"({"specimen":"a","by":"Ada","why":"x"})")) << "nothing changes";
+  EXPECT_FALSE(amendment_from_json(R"({"specimen":"a","by":"Ada","why":"x","modulus_pa":[1]})"));
+}
+
+TEST(Entries, AWithdrawalIsOfAnOrderOrADesign) {
+  EXPECT_EQ(withdrawal_from_json(R"({"order":"r1/soft/modulus","withdrawn":true,"by":"Ada","why":"resin"})")->order,
+            "r1/soft/modulus");
+  EXPECT_EQ(withdrawal_from_json(R"({"design":"soft","withdrawn":false,"by":"Ada"})")->design, "soft");
+  EXPECT_FALSE(withdrawal_from_json(R"({"design":"soft","withdrawn":true,"by":"Ada","why":""})")) << "no reason";
+  EXPECT_FALSE(withdrawal_from_json(R"({"withdrawn":true,"by":"Ada","why":"x"})"));
+  EXPECT_FALSE(withdrawal_from_json(R"({"order":"o","design":"soft","withdrawn":true,"by":"Ada","why":"x"})"));
+  EXPECT_FALSE(withdrawal_from_json(R"({"design":"no design","withdrawn":true,"by":"Ada","why":"x"})"));
+}
+
 TEST(Entries, AReviewNeedsAPersonAndAReason) {
   EXPECT_TRUE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"));
   EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":" "})"));

@@ -20,7 +20,19 @@ class FakeDesk : public Desk {
   Answer review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
   std::optional<std::string> against(const SpecimenReview&) override { return reason_against; }
   std::optional<std::string> against(const Approval&) override { return reason_against; }
+  std::optional<std::string> against(const Withdrawal&) override { return reason_against; }
   Answer decide(const Approval& approval) override { return approvals.push_back(approval), answer; }
+  Answer withdraw(const Withdrawal& withdrawal) override { return withdrawals.push_back(withdrawal), answer; }
+  Result<measurement::SpecimenRecord> amended(const Amendment& amendment) override {
+    amendments.push_back(amendment);
+    if (reason_against) return fail("{}", *reason_against);
+    measurement::SpecimenRecord record;
+    record.specimen = amendment.specimen;
+    return record;
+  }
+  Answer amend(const measurement::SpecimenRecord& specimen, const std::string&, const std::string&) override {
+    return specimens.push_back(specimen), answer;
+  }
 
   void keep_grouping(const std::filesystem::path&, const std::vector<families::SeedFamily>& families) override {
     groupings.push_back(families);
@@ -35,6 +47,8 @@ class FakeDesk : public Desk {
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<SpecimenReview> reviews;
   std::vector<Approval> approvals;
+  std::vector<Withdrawal> withdrawals;
+  std::vector<Amendment> amendments;
   std::vector<std::vector<families::SeedFamily>> groupings;
 };
 

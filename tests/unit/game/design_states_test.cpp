@@ -43,6 +43,39 @@ DesignStage stage_of(const LaboratoryFacts& facts, const pattern::Design& design
   return DesignStage::pending;
 }
 
+TEST(DesignStates, WhatIsOpenOfADesignIsWithdrawnAndGivenAgain) {
+  LaboratoryFacts facts;
+  facts.orders = both_orders_of(kDesign);
+  const std::string modulus = facts.orders[0].id, toughness = facts.orders[1].id;
+  for (const char* name : {"A-1", "A-2"}) facts.book.enter(specimen_of(name, kDesign), "");
+  EXPECT_EQ(orders_to_change(facts, kDesign, true), std::vector{toughness}) << "the other one is complete";
+  EXPECT_TRUE(why_void(facts, modulus, true)->ends_with("its specimens are measured, and count"));
+  EXPECT_TRUE(why_void(facts, toughness, false)->ends_with("is not withdrawn"));
+  facts.withdrawals.enter(toughness, {1, true, "Ada", "cannot be notched"});
+  const DesignState state = design_states(facts).front();
+  EXPECT_EQ(to_string(state.stage), "withdrawn");
+  EXPECT_EQ(state.decided_by + ": " + state.why, "Ada: cannot be notched");
+  EXPECT_TRUE(why_void(facts, toughness, true)->ends_with("was withdrawn by Ada: cannot be notched"));
+  EXPECT_TRUE(why_void(facts, kDesign, true)->ends_with("no order of it is open: it is withdrawn"));
+  EXPECT_EQ(orders_to_change(facts, kDesign, false), std::vector{toughness});
+  facts.withdrawals.enter(toughness, {2, false, "Ada", ""});
+  facts.withdrawals.enter(toughness, {1, true, "Bob", "an old word that comes late"});
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed);
+  facts.orders.push_back(order_of(kOther));
+  facts.orders.back().round = 2;
+  EXPECT_TRUE(orders_to_change(facts, kDesign, true).empty()) << "its round is over";
+}
+
+TEST(DesignStates, NothingButAnOpenOrderCanBeWithdrawn) {
+  LaboratoryFacts facts;
+  facts.proposed = {{0, kDesign}, {0, kOther}};
+  facts.approvals = {{0, kOther, true, "lab", "go"}};
+  EXPECT_TRUE(why_void(facts, kDesign, true)->ends_with("reject it instead"));
+  EXPECT_TRUE(why_void(facts, kOther, true)->ends_with("withdraw it when the next round has begun"));
+  EXPECT_TRUE(why_void(facts, pattern::Mixture{0.5}, true)->ends_with("is not ordered"));
+  EXPECT_TRUE(why_void(facts, std::string("r9/soft/modulus"), true)->ends_with("there is no such order"));
+}
+
 TEST(DesignStates, ADesignGoesFromPendingToMeasured) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};

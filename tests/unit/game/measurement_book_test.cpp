@@ -176,6 +176,42 @@ TEST(MeasurementBook, NobodyMakesASpecimenValidThatSaysNothing) {
   EXPECT_FALSE(book.against_validity("nobody's"));
 }
 
+TEST(MeasurementBook, TheNewestAmendmentCountsInWhateverOrderAndTheOthersAreKept) {
+  const SpecimenRecord typed = specimen("a", 1e8), amended = specimen("a", 1e9), again = specimen("a", 1.1e9);
+  for (const bool backwards : {false, true}) {
+    MeasurementBook book;
+    const std::vector<std::pair<Amendment, SpecimenRecord>> reports = {
+        {{}, typed}, {{1, "Ada", "decimal point"}, amended}, {{2, "Ada", "second digit"}, again}};
+    for (int i = 0; i < 3; ++i) {
+      const auto& [amendment, record] = reports[backwards ? 2 - i : i];
+      const auto receipt = book.enter(record, "o", amendment);
+      EXPECT_EQ(receipt, backwards && i > 0 ? Receipt::superseded : Receipt::accepted);
+    }
+    ASSERT_EQ(book.specimens().size(), 1u);
+    EXPECT_EQ(book.specimens()[0].modulus_pa, 1.1e9);
+    EXPECT_EQ(book.revisions().at("a"), 2);
+    const std::vector<Report> kept = book.reports_of("a");
+    ASSERT_EQ(kept.size(), 3u);
+    EXPECT_EQ(kept[0].record.modulus_pa, 1e8);
+    EXPECT_EQ(kept[1].amendment.why, "decimal point");
+    EXPECT_EQ(book.enter(amended, "o", {1, "Ada", "decimal point"}), Receipt::repeated);
+    EXPECT_EQ(book.enter(typed, "o", {1, "Ada", "decimal point"}), Receipt::conflicting);
+    EXPECT_EQ(book.specimens()[0].modulus_pa, 1.1e9);
+  }
+}
+
+TEST(MeasurementBook, AnAmendmentMovesASpecimenToTheOrderThatItFulfils) {
+  MeasurementBook book;
+  SpecimenRecord fast = specimen("a", 1e9);
+  const std::vector<Order> orders = {order("o", 2)};
+  fast.conditions.strain_rate_per_s *= 10.0;
+  book.enter(fast, "");
+  EXPECT_EQ(book.progress(orders, 0)[0].arrived, 0);
+  fast.conditions.strain_rate_per_s /= 10.0;
+  book.enter(fast, "", {1, "Ada", "rate of the sheet"});
+  EXPECT_EQ(book.progress(orders, 0)[0].arrived, 1);
+}
+
 TEST(MeasurementBook, OrderOfArrivalDoesNotMatter) {
   std::vector<std::string> names = {"a", "b", "c", "d"};
   std::vector<SpecimenRecord> reference;

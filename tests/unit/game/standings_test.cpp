@@ -78,10 +78,10 @@ TEST(Standings, WhereNotAllSpecimensCanBeNamedEveryTestKeepsReplicates) {
   invalid.valid = false;
   specimens.push_back(invalid);
   specimens.push_back(modulus("z", pattern::Pattern(9), 1e9));
-  const std::size_t bytes = 6 * (3 + 5) + 1 + 5;
+  const std::size_t bytes = 6 * (3 + 9) + 1 + 9;
   EXPECT_THAT(specimens_to_name(specimens, bytes), ElementsAre("a/1", "a/2", "a/3", "b/1", "b/2", "b/3", "z"));
   EXPECT_THAT(specimens_to_name(specimens, bytes - 1), ElementsAre("a/1", "a/2", "a/3", "b/1", "b/2", "z"));
-  EXPECT_THAT(specimens_to_name(specimens, bytes - 16), ElementsAre("a/1", "a/2", "b/1", "b/2", "z"));
+  EXPECT_THAT(specimens_to_name(specimens, bytes - 24), ElementsAre("a/1", "a/2", "b/1", "b/2", "z"));
 }
 
 TEST(Standings, HypervolumeErrorOfOneDesignIsThatOfAProductOfMeans) {

@@ -196,6 +196,29 @@ TEST_F(RunOfAFile, MessagesAreFoundByChannelAndRound) {
   EXPECT_TRUE(run_.payloads("PROPOSAL", 1).empty());
 }
 
+TEST_F(RunOfAFile, TheNewestAmendmentCountsInTheRoundOfTheFirstReport) {
+  wire::Measurement measurement = wire::samples::measurement();
+  const auto report = [&](int revision, double toughness_pa) {
+    measurement.revision = revision;
+    measurement.by = measurement.why = revision > 0 ? "Ada" : "";
+    measurement.record.toughness_pa = toughness_pa;
+    database_->keep("MEASUREMENT", wire::write(measurement));
+  };
+  measurement.round = 1;
+  report(0, 1e4);
+  measurement.round = -1;
+  wire::RoundSummary summary = wire::samples::round();
+  summary.round = 3;
+  database_->keep("ROUND", wire::write(summary));
+  report(2, 1e5);
+  report(1, 9e5);
+  const auto specimens = run_.record()->specimens;
+  ASSERT_EQ(specimens.size(), 1u);
+  EXPECT_EQ(specimens[0].record.toughness_pa, 1e5);
+  EXPECT_EQ(specimens[0].amendment.revision, 2);
+  EXPECT_EQ(specimens[0].measured_in, 1);
+}
+
 TEST_F(RunOfAFile, LateSpecimensKeepTheRoundTheyWereMeasuredIn) {
   wire::Measurement measurement = wire::samples::measurement();
   wire::RoundSummary summary = wire::samples::round();

@@ -95,6 +95,30 @@ TEST_F(ViewsOfARun, TheFirstReportOfASpecimenCountsAndItsHighestReview) {
   EXPECT_EQ(rows(query), std::vector<std::string>{"1000000000.0|0|Ada"});
 }
 
+TEST_F(ViewsOfARun, TheNewestAmendmentOfASpecimenCountsInTheRoundOfTheFirstReport) {
+  measure("s", a_, tester::TestKind::modulus, 1e8);
+  close(1);
+  wire::Measurement m = wire::samples::measurement();
+  m.round = -1;
+  m.record.specimen = "s";
+  m.record.design = b_;
+  m.record.test = tester::TestKind::modulus;
+  m.record.curve = {};
+  m.record.toughness_pa.reset();
+  m.by = "Ada";
+  m.why = "decimal point";
+  for (const auto& [revision, modulus_pa] : {std::pair{2, 1e9}, std::pair{1, 5e9}}) {
+    m.revision = revision;
+    m.record.modulus_pa = modulus_pa;
+    database_.keep("MEASUREMENT", wire::write(m));
+  }
+  EXPECT_EQ(rows("SELECT design, round, modulus_pa, revision, amended_by, amended_why FROM specimens"),
+            std::vector<std::string>{"3ffc9b4ad4d2d9|1|1000000000.0|2|Ada|decimal point"});
+  EXPECT_EQ(rows("SELECT design, modulus_pa FROM designs"), std::vector<std::string>{"3ffc9b4ad4d2d9|1000000000.0"});
+  EXPECT_EQ(rows("SELECT count(*) FROM messages WHERE channel = 'MEASUREMENT'"), std::vector<std::string>{"3"})
+      << "what was reported before is kept";
+}
+
 TEST_F(ViewsOfARun, ACurveIsReadForWhatItShows) {
   wire::Measurement m = wire::samples::measurement();
   m.record.toughness_pa.reset();

@@ -47,10 +47,11 @@ TEST(Convert, EveryDomainValueComesBack) {
   expect_round_trip(samples::diagnosis());
   expect_round_trip(samples::approval());
   expect_round_trip(samples::review());
+  expect_round_trip(samples::withdrawal());
   expect_round_trip(samples::ack());
   expect_round_trip(samples::ask());
   expect_round_trip(samples::status());
-  expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}});
+  expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {{"a", 0}, {"b", 3}}});
 }
 
 TEST(Convert, PhysicallyImpossibleParametersAreRefused) {
@@ -168,6 +169,41 @@ TEST(Convert, ValidSpecimensCarryAResult) {
   EXPECT_FALSE(read<Measurement>(write(m)));
   m.record.valid = false;  // a failed specimen has none
   EXPECT_TRUE(read<Measurement>(write(m)));
+}
+
+TEST(Convert, AnAmendmentHasItsAuthorAndReason) {
+  Measurement measured = samples::measurement();
+  measured.revision = 1;
+  measured.by = "Ada";
+  measured.why = " ";
+  const auto refused = read<Measurement>(write(measured));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("why: is empty, expected a text: revision 1 amends specimen"),
+            std::string::npos)
+      << refused.error().message;
+  measured.why = "decimal point";
+  EXPECT_TRUE(read<Measurement>(write(measured)));
+  measured.by.clear();
+  EXPECT_FALSE(read<Measurement>(write(measured)));
+  measured.by = "Ada";
+  measured.revision = -1;
+  EXPECT_FALSE(read<Measurement>(write(measured)));
+}
+
+TEST(Convert, AWithdrawalHasItsAuthorAndReason) {
+  Withdrawal said = samples::withdrawal();
+  said.why.clear();
+  const auto refused = read<Withdrawal>(write(said));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("expected why r1/mix:0.65/toughness is withdrawn"), std::string::npos)
+      << refused.error().message;
+  said.withdrawn = false;
+  EXPECT_TRUE(read<Withdrawal>(write(said))) << "giving an order again needs no reason";
+  said.by.clear();
+  EXPECT_FALSE(read<Withdrawal>(write(said)));
+  said = samples::withdrawal();
+  said.revision = 0;
+  EXPECT_FALSE(read<Withdrawal>(write(said)));
 }
 
 TEST(Convert, ANameFitsOnALabel) {

@@ -161,8 +161,11 @@ inline Diagnosis diagnosis() {
 }
 
 inline RunStart run() { return {1, "0123456789abcdef0123456789abcdef", 1}; }
-inline DiagnoseRequest diagnose() { return {1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}}; }
+inline DiagnoseRequest diagnose() {
+  return {1, tester::Fidelity::full, material::default_parameters(), {{"a", 0}, {"b", 2}}};
+}
 inline Approval approval() { return {1, pattern::Pattern(0x577fffe9fffdef), true, "someone", "a reason"}; }
+inline Withdrawal withdrawal() { return {"r1/mix:0.65/toughness", 2, true, "someone", "cannot be printed"}; }
 inline Review review() { return {"S-001", 2, false, "someone", "broke at the grip"}; }
 inline Reveal reveal() {
   return {
@@ -201,7 +204,8 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"ACK", write(ack())},
           {"STATUS", write(status())},
           {"REVEAL", write(reveal())},
-          {"ASK", write(ask())}};
+          {"ASK", write(ask())},
+          {"WITHDRAWAL", write(withdrawal())}};
 }
 
 }  // namespace nacre::wire::samples
