@@ -110,6 +110,67 @@ test("a measurement is entered and reviewed", async () => {
   assert.match(await row.innerText(), /the grip slipped/);
 });
 
+test("what was mistyped is amended, what cannot be made is withdrawn, and the round closes", async () => {
+  const person = await playGame(join(ROOT, "tests/web/person.toml"), "person");
+  const its = await openDashboard(person.folder);
+  const on = await visit(`${its.url}#laboratory`);
+  on.setDefaultTimeout(60_000); // the search comes first
+  const card = on.locator(".card");
+  await card.getByRole("button", { name: "Approve" }).click();
+  await card.locator(".chip", { hasText: "approved" }).waitFor();
+  const design = await card.locator("code.key").innerText();
+  assert.ok(await card.getByRole("button", { name: "Withdraw" }).isDisabled(), "a reason is asked for");
+  await on.getByPlaceholder("kept with what you decide").fill("cannot be printed");
+  await card.getByRole("button", { name: "Withdraw" }).click();
+  await card.locator(".chip.withdrawn").waitFor();
+  assert.match(await card.innerText(), /web test: cannot be printed/);
+  await card.getByRole("button", { name: "Undo the withdrawal" }).click();
+  await card.locator(".chip", { hasText: "approved" }).waitFor();
+  await on.getByPlaceholder("kept with what you decide").fill("islands");
+  await card.getByRole("button", { name: "Withdraw" }).click();
+  await card.locator(".chip.withdrawn").waitFor();
+
+  const orders = on.getByRole("region", { name: "Open orders" });
+  await on.getByRole("button", { name: "withdraw r1/soft/toughness" }).click();
+  await on.getByLabel("why r1/soft/toughness is withdrawn").fill("the notch tears");
+  await photograph(on, "orders", true);
+  await orders.getByRole("button", { name: "withdraw", exact: true }).click();
+  await orders.locator("tr", { hasText: "web test: the notch tears" }).locator(".chip.rejected").waitFor();
+
+  const measured = async (pattern, test, value) => {
+    await on.locator('input[name="specimen"]').fill(`${pattern}-${test}`);
+    await on.locator('input[name="pattern"]').fill(pattern);
+    await on.locator('select[name="test"]').selectOption(test);
+    await on.locator('input[name="value"]').fill(value);
+    await on.getByRole("button", { name: "Add measurement" }).click();
+    await on.locator(".notice", { hasText: `${pattern}-${test} was added to the run` }).waitFor();
+  };
+  await measured("soft", "modulus", "0,01"); // of 0.001
+  await on.getByRole("button", { name: "amend soft-modulus" }).click();
+  const form = on.getByRole("form", { name: "amend soft-modulus" });
+  assert.equal(await form.locator('input[name="value"]').inputValue(), "0.01");
+  await form.locator('input[name="value"]').fill("0.001");
+  await form.locator('input[name="why"]').fill("decimal point");
+  await photograph(on, "amendment", true);
+  await form.getByRole("button", { name: "Amend" }).click();
+  const row = on.locator("tr", { hasText: "soft-modulus" });
+  await on.locator(".notice.good", { hasText: "soft-modulus is amended." }).waitFor();
+  assert.match(await row.innerText(), /amended by web test: decimal point \(it was E 0\.010* GPa\)/);
+  for (const [pattern, test, value] of [
+    ["interface", "modulus", "0.56"],
+    ["interface", "toughness", "0.9"],
+    ["rigid", "modulus", "2.7"],
+    ["rigid", "toughness", "0.2"],
+  ])
+    await measured(pattern, test, value);
+  await until(() => person.said.includes("the game is over"), 120, `the round closes without ${design}; ${person.said}`);
+  const { specimens } = await (await on.request.get(`${its.url}api/laboratory`)).json();
+  assert.equal(specimens.find((s) => s.specimen === "soft-modulus").modulus_pa, 1e6);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+  await its.close();
+});
+
 /** The page, with the server's responses changed: by path, a function of the response. */
 const visitWith = async (url, changes) => {
   const other = await visit(url);

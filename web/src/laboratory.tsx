@@ -4,6 +4,7 @@ import type { DesignState, Families, Group, Laboratory, Rounds, RunInfo } from "
 import { MeasurementForm } from "./measurement_form";
 import { gpa, mpa, percent } from "./numbers";
 import { Awaited, DesignChip, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
+import { Orders } from "./orders";
 import { offerOf, Proposals } from "./proposals";
 import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
@@ -178,6 +179,7 @@ export function LaboratoryView({
           isOver={isOver}
         />
       )}
+      {playing && <Orders laboratory={laboratory} by={by} refresh={refresh} />}
       <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
       <Specimens
         laboratory={laboratory}

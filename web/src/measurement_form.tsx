@@ -6,7 +6,7 @@ import { typedNumber } from "./numbers";
 import { Notice, useDraft } from "./parts";
 import { useSubmit } from "./submit";
 
-const EMPTY = {
+export const EMPTY = {
   specimen: "",
   pattern: "",
   test: "toughness",
@@ -20,10 +20,10 @@ const EMPTY = {
   curve_csv: "",
 };
 
-type Form = typeof EMPTY;
+export type Form = typeof EMPTY;
 
-const measuredName = (test: string) => (test === "modulus" ? "Young's modulus" : "Toughness");
-const unitOf = (test: string) => (test === "modulus" ? "GPa" : "MPa");
+export const measuredName = (test: string) => (test === "modulus" ? "Young's modulus" : "Toughness");
+export const unitOf = (test: string) => (test === "modulus" ? "GPa" : "MPa");
 
 /** The fields by the columns that the server names. */
 const FIELDS: Record<string, { label: string; field: keyof Form; unit?: string }> = {
@@ -40,7 +40,7 @@ const FIELDS: Record<string, { label: string; field: keyof Form; unit?: string }
 };
 
 /** The server's sentence about a column in the words of the form: the field's label, and what was typed there. */
-function inWordsOfForm(sentence: string, form: Form): string {
+export function inWordsOfForm(sentence: string, form: Form): string {
   const [, column, rest] = /^(?:column )?(\w+): ([\s\S]*)$/.exec(sentence) ?? [];
   const known = column ? FIELDS[column] : undefined;
   if (!known) return column === "curve" ? `Curve: ${rest}` : sentence;
@@ -53,7 +53,7 @@ function inWordsOfForm(sentence: string, form: Form): string {
 }
 
 /** The first field with a number that cannot be read; null: none. */
-function unreadable(form: Form): { field: keyof Form; text: string } | null {
+export function unreadable(form: Form): { field: keyof Form; text: string } | null {
   const labels = { value: measuredName(form.test), thickness_mm: "Thickness", strain_rate_per_s: "Strain rate" };
   for (const field of ["value", "thickness_mm", "strain_rate_per_s"] as const) {
     if (form[field].trim() === "" || typedNumber(form[field]) !== null) continue;
@@ -64,7 +64,7 @@ function unreadable(form: Form): { field: keyof Form; text: string } | null {
 }
 
 /** The form as a row of a measurement set, in its units. */
-function rowOf({ value, ...rest }: Form) {
+export function rowOf({ value, ...rest }: Form) {
   const measured = typedNumber(value);
   const inPascal = (factor: number) => (measured === null ? null : measured * factor);
   return {
@@ -114,7 +114,7 @@ function useForm(laboratory: Laboratory, refresh: () => Promise<void>) {
     setFileName("");
     setFiles(files + 1);
   };
-  const open = laboratory.orders.filter((o) => !o.complete);
+  const open = laboratory.orders.filter((o) => !o.complete && !o.withdrawn);
   const orderOf = (id: string) => open.find((o) => o.order === id);
   const nameFor = (order: Order) => nextName(order, new Set(laboratory.specimens.map((s) => s.specimen)));
   const take = (id: string) => {

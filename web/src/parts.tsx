@@ -217,6 +217,7 @@ const DESIGN_STATES: Record<string, string> = {
   printed: "Printed, not all of it measured yet.",
   measured: "All that was ordered is measured.",
   rejected: "A person said no: it is not measured.",
+  withdrawn: "A person said that what is missing cannot be made.",
 };
 
 /** How far a design has got, as `nacre designs` calls it; `waits`: the game goes on and asks for approvals. */

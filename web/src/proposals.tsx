@@ -88,6 +88,18 @@ export function Proposals({
   };
   const approveOrReject = (design: string, approved: boolean) =>
     approve(design, offer!.round, approved, `${design} is ${approved ? "approved" : "rejected"}.`);
+  /** What is open of a design's orders is withdrawn, for the reason that is typed below. */
+  const withdraw = async (design: string) => {
+    const done = `${design} is withdrawn: the round closes without it.`;
+    if (await submit("/api/withdrawal", { design, withdrawn: true, by, why }, done, sentence)) setWhy("");
+  };
+  const giveAgain = (design: string) =>
+    submit("/api/withdrawal", { design, withdrawn: false, by, why }, `${design} is open again.`, sentence);
+  const newest = Math.max(...laboratory.orders.map((o) => o.round));
+  const hasOrder = (design: string, withdrawn: boolean) =>
+    laboratory.orders.some(
+      (o) => o.design === design && o.round === newest && !o.complete && o.withdrawn === withdrawn,
+    );
   const price = hasPrice && <PriceOfRound price={laboratory.price} />;
   const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
@@ -145,6 +157,22 @@ export function Proposals({
                     </button>
                   </div>
                 )}
+                {playing && hasOrder(p.design, false) && (
+                  <button
+                    type="button"
+                    class="quiet"
+                    disabled={busy || !by || !why}
+                    title={why ? "" : "Say below why it cannot be made"}
+                    onClick={() => withdraw(p.design)}
+                  >
+                    Withdraw
+                  </button>
+                )}
+                {playing && hasOrder(p.design, true) && (
+                  <button type="button" class="quiet" disabled={busy || !by} onClick={() => giveAgain(p.design)}>
+                    Undo the withdrawal
+                  </button>
+                )}
               </div>
             </li>
           );
@@ -158,7 +186,7 @@ export function Proposals({
               value={why}
               maxLength={200}
               onInput={(e) => setWhy(e.currentTarget.value)}
-              placeholder="kept with your yes or no"
+              placeholder="kept with what you decide"
             />
           </label>
           <label>

@@ -2,17 +2,34 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Laboratory, LaboratorySpecimen } from "./api";
+import { AmendmentForm } from "./amendment_form";
 import { gpa, mpa } from "./numbers";
-import { Name, Notice, Table, Unit, unusual, type Column } from "./parts";
+import { Name, Notice, Table, Unit, unusual, type Column, type NoticeText } from "./parts";
 import { addressOf } from "./route";
 import { useSubmit } from "./submit";
 import { TERMS } from "./terms";
 
-/** The laboratory's note, and who reviewed the specimen last and why. */
+/** What the specimen was before its last amendment, where that differs. */
+function earlierInWords(s: LaboratorySpecimen): string {
+  const was = s.earlier[s.earlier.length - 1];
+  const parts = [
+    was.design !== s.design && was.design,
+    was.test !== s.test && was.test,
+    was.modulus_pa !== s.modulus_pa && was.modulus_pa !== null && `E ${gpa(was.modulus_pa)} GPa`,
+    was.toughness_pa !== s.toughness_pa && was.toughness_pa !== null && `T ${mpa(was.toughness_pa)} MPa`,
+    was.thickness_mm !== s.thickness_mm && `${was.thickness_mm} mm`,
+    was.strain_rate_per_s !== s.strain_rate_per_s && `${was.strain_rate_per_s} /s`,
+    was.orientation_deg !== s.orientation_deg && `at ${was.orientation_deg}°`,
+  ].filter(Boolean);
+  return parts.length > 0 ? ` (it was ${parts.join(", ")})` : "";
+}
+
+/** The laboratory's note, who amended the specimen last, who reviewed it last, and why. */
 function remarkOn(s: LaboratorySpecimen): string {
-  if (!s.by) return s.note;
-  const review = `${s.by}: ${s.why}`;
-  return s.note && s.note !== s.why ? `${s.note}; ${review}` : review;
+  const amended = s.amended_by && `amended by ${s.amended_by}: ${s.amended_why}${earlierInWords(s)}`;
+  const review = s.by && `${s.by}: ${s.why}`;
+  const note = s.note !== s.why && s.note;
+  return [note, amended, review].filter(Boolean).join("; ");
 }
 
 export function Specimens({
@@ -34,7 +51,10 @@ export function Specimens({
   const [reviewed, setReviewed] = useState<string | null>(null);
   const [why, setWhy] = useState("");
   const [find, setFind] = useState("");
+  const [amended, setAmended] = useState<string | null>(null);
+  const [fault, setFault] = useState<NoticeText | null>(null);
   const [notice, busy, submit] = useSubmit(refresh);
+  const specimenToAmend = laboratory.specimens.find((s) => s.specimen === amended);
   const doubts = new Map(
     laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)),
   );
@@ -84,17 +104,30 @@ export function Specimens({
           </button>
         </form>
       ) : (
-        <button
-          type="button"
-          class="quiet"
-          onClick={() => {
-            setReviewed(s.specimen);
-            setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
-          }}
-          aria-label={`review ${s.specimen}`}
-        >
-          review
-        </button>
+        <span class="buttons">
+          <button
+            type="button"
+            class="quiet"
+            onClick={() => {
+              setReviewed(s.specimen);
+              setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
+            }}
+            aria-label={`review ${s.specimen}`}
+          >
+            review
+          </button>
+          <button
+            type="button"
+            class="quiet"
+            onClick={() => {
+              setAmended(s.specimen);
+              setFault(null);
+            }}
+            aria-label={`amend ${s.specimen}`}
+          >
+            amend
+          </button>
+        </span>
       ),
   };
   return (
@@ -112,7 +145,18 @@ export function Specimens({
           />
         </label>
       </div>
-      <Notice notice={notice} />
+      {playing && specimenToAmend && (
+        <AmendmentForm
+          key={amended}
+          specimen={specimenToAmend}
+          by={by}
+          busy={busy}
+          submit={(body, done, explain) => (setFault(null), submit("/api/amendment", body, done, explain))}
+          close={() => setAmended(null)}
+          say={setFault}
+        />
+      )}
+      <Notice notice={fault ?? notice} />
       <Table
         name="specimens"
         caption={`Review (${find ? `${rows.length} of ` : ""}${laboratory.specimens.length} specimens)`}
@@ -188,6 +232,8 @@ export function Specimens({
           },
           { heading: "by", value: (s) => s.by },
           { heading: "why", value: (s) => s.why },
+          { heading: "amended_by", value: (s) => s.amended_by },
+          { heading: "amended_why", value: (s) => s.amended_why },
           ...(playing ? [reviewColumn] : []),
         ]}
       />

@@ -58,13 +58,19 @@ export const TERMS = {
   toughnessFit: term("fit error of\u00a0T", "Mean relative error of T after calibration, on the designs used for it."),
   equilibrium: term("equilibrium", "Whether two rounds running added nothing, and the comparison that decided it."),
 
-  designState: term("state", "How far the design has got: proposed, approved, printed, measured, or rejected."),
+  designState: term(
+    "state",
+    "How far the design has got: proposed, approved, printed, measured, or rejected or withdrawn.",
+  ),
   proposedIn: term("proposed in round", "The round that proposed the design; a dash for designs that a person added."),
   ordered: term("ordered", "Specimens that the game has ordered."),
   printed: term("printed", "Specimens that have been printed."),
   measured: term("measured", "Specimens that have been tested."),
   valid: term("valid", "Tested specimens that count."),
-  approval: term("approved or rejected by", "Who said yes or no to the design, and why."),
+  approval: term("approved or rejected by", "Who said yes or no to the design, or withdrew it, and why."),
+  arrivedOf: term("measured of ordered", "Specimens of the order that have been tested, valid or not."),
+  orderState: term("state", "Whether the order is open, or who withdrew it and why."),
+  withdraw: term("withdraw", "Say that what is missing cannot be made, and why; undo while the round lasts."),
 
   test: term(
     "test",
@@ -76,8 +82,8 @@ export const TERMS = {
   scatter: term("scatter", "Standard deviation of the valid specimens, relative to their mean."),
   withoutOutliers: term("without outliers", "Mean and scatter without the specimens that look like outliers."),
   specimenValid: term("valid", "Whether the specimen counts."),
-  remarks: term("remarks", "What looks wrong, the laboratory's note, and who reviewed the specimen and why."),
-  review: term("review", "Say that the specimen counts or does not, and why."),
+  remarks: term("remarks", "What looks wrong, the laboratory's note, who amended or reviewed the specimen and why."),
+  review: term("review", "Say that the specimen counts or does not, or amend what was mistyped, and why."),
 
   effect: term("effect", "Physics that the base model lacks."),
   effectStatus: term("result", "What the measurements say of this effect."),
