@@ -1,6 +1,6 @@
 // Chromium, watched: errors in the console and requests to elsewhere are kept, screenshots go to one folder.
 
-import { existsSync, mkdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { BUILD, ROOT } from "./games.mjs";
@@ -41,6 +41,24 @@ export async function visit(url, { width = 1360, height = 900, dark = false, tou
   });
   await page.goto(url);
   return page;
+}
+
+/** The page, with the server's responses changed: by path, a function of the response. */
+export async function visitWith(url, changes, how = {}) {
+  const page = await visit(url, how);
+  for (const [path, change] of Object.entries(changes))
+    await page.route(`**${path}`, async (route) => {
+      const response = await route.fetch();
+      await route.fulfill({ response, json: change(await response.json()) });
+    });
+  await page.reload();
+  return page;
+}
+
+/** What a button saves. */
+export async function savedFrom(page, button) {
+  const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
 /** Closes a page and all of its context; responses that are still on their way to it are no fault. */

@@ -5,7 +5,7 @@ import { request } from "node:http";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { browser, leave, photograph, visit } from "./browser.mjs";
+import { browser, leave, photograph, savedFrom as download, visit, visitWith } from "./browser.mjs";
 import { endAll, openDashboard, playGame, renamed, ROOT, until, withManyPatterns } from "./games.mjs";
 
 const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
@@ -116,7 +116,7 @@ test("what was mistyped is amended, what cannot be made is withdrawn, and the ro
   const on = await visit(`${its.url}#laboratory`);
   on.setDefaultTimeout(60_000); // the search comes first
   const card = on.locator(".card");
-  await card.getByRole("button", { name: "Approve" }).click();
+  await card.getByRole("button", { name: "Approve", exact: true }).click();
   await card.locator(".chip", { hasText: "approved" }).waitFor();
   const design = await card.locator("code.key").innerText();
   assert.ok(await card.getByRole("button", { name: "Withdraw" }).isDisabled(), "a reason is asked for");
@@ -170,18 +170,6 @@ test("what was mistyped is amended, what cannot be made is withdrawn, and the ro
   await leave(on);
   await its.close();
 });
-
-/** The page, with the server's responses changed: by path, a function of the response. */
-const visitWith = async (url, changes) => {
-  const other = await visit(url);
-  for (const [path, change] of Object.entries(changes))
-    await other.route(`**${path}`, async (route) => {
-      const response = await route.fetch();
-      await route.fulfill({ response, json: change(await response.json()) });
-    });
-  await other.reload();
-  return other;
-};
 
 test("every replicate of a turned order is entered as a turned one", async () => {
   const turned = { order: "turned", round: 1, design: PUBLISHED, test: "toughness", orientation_deg: 90 };
@@ -245,7 +233,7 @@ test("a late refusal is shown with its reason, and what was typed stays", async 
   for (const path of ["approval", "measurement", "review"])
     await other.route(`**/api/${path}`, (route) => route.fulfill(refusal));
   const said = (title) => other.locator(".panel", { hasText: title }).locator(".notice.bad", { hasText: why });
-  await other.getByRole("button", { name: "Approve" }).click();
+  await other.getByRole("button", { name: "Approve", exact: true }).click();
   await said("Proposals of round 0").waitFor();
   await other.getByPlaceholder("key of 14 hex digits").fill(PUBLISHED);
   await other.getByRole("button", { name: "Have it measured" }).click();
@@ -333,7 +321,7 @@ test("what cannot be a measurement is refused with the field and what was typed"
 
 /** Approves everything that waits for it; the page leads there. */
 const approveAll = async () => {
-  const approve = page.getByRole("button", { name: "Approve" });
+  const approve = page.getByRole("button", { name: "Approve", exact: true });
   await view(page, "game");
   await page.locator(".standing a", { hasText: /waits for you, \d designs? to approve/ }).click({ timeout: 120_000 });
   await approve.first().waitFor({ timeout: 120_000 });
@@ -369,7 +357,7 @@ test("the family stage waits for a yes to its variants, and the game goes on to 
   assert.equal(await game.ended, 0, game.said);
   await page.getByRole("link", { name: "report" }).waitFor(); // there was none when the page was opened
   await page.locator("text=Proposed after the last round").waitFor();
-  assert.equal(await page.getByRole("button", { name: "Approve" }).count(), 0);
+  assert.equal(await page.getByRole("button", { name: "Approve", exact: true }).count(), 0);
   await view(page, "game");
   await page.locator("text=Measured patterns").waitFor();
   await until(
@@ -929,9 +917,9 @@ test("what is not there is not promised once the game is over", async () => {
 
 /** The file that a button of a page saves; its name begins with the run's. */
 async function savedFrom(page, button) {
-  const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
-  assert.match(download.suggestedFilename(), /^game-/);
-  return readFileSync(await download.path());
+  const { name, bytes } = await download(page, button);
+  assert.match(name, /^game-/);
+  return bytes;
 }
 
 /** What is written in a saved picture, which must be well-formed. */

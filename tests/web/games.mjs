@@ -2,15 +2,15 @@
 
 import { spawn, execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
+import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const BUILD = process.argv[2] ?? join(ROOT, "build");
 const NACRE = join(BUILD, "bin/nacre");
 
-/** The runs that are played; they stay until the next test, since a failure is understood from its run. */
-export const folder = join(BUILD, "web-runs");
+/** The runs that a file of tests plays; they stay until its next time, since a failure is understood from its run. */
+export const folder = join(BUILD, "web-runs", basename(process.argv[1], ".mjs"));
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const children = new Set();

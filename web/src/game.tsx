@@ -369,7 +369,11 @@ function MeasuredTable({
           value: (m) => m.toughness_pa,
         },
         { heading: "toughness_sd_pa", value: (m) => m.toughness_sd_pa },
-        { ...TERMS.specimens, show: (m) => `${m.modulus_count} for E, ${m.toughness_count} for T` },
+        {
+          ...TERMS.specimens,
+          show: (m) => `${m.modulus_count} for E, ${m.toughness_count} for T`,
+          order: (m) => m.modulus_count + m.toughness_count,
+        },
         { heading: "modulus_count", value: (m) => m.modulus_count },
         { heading: "toughness_count", value: (m) => m.toughness_count },
       ]}

@@ -43,6 +43,7 @@ const stateColumns = (waits: boolean) => [
     ...TERMS.approval,
     words: true,
     show: (d: DesignState) => (d.by ? `${d.by}: ${d.why}` : ""),
+    order: (d: DesignState) => d.by,
   },
   { heading: "by", value: (d: DesignState) => d.by },
   { heading: "why", value: (d: DesignState) => d.why },

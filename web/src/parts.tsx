@@ -1,12 +1,12 @@
 // Small parts that every view uses.
 
-import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { openedRun } from "./api";
 import { MATERIAL } from "./colour";
 import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
+import { FindRows, Heading, useSorting, type Sortable } from "./sorting";
 
 /** One unit of a design, drawn from its name in the colours of the materials; mixtures in their shade. */
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
@@ -87,14 +87,7 @@ export function Name({ design }: { design: string }) {
 }
 
 /** One column on the screen, in the CSV, or in both. */
-export interface Column<Row> {
-  heading: string;
-  /** What the heading means, as a tooltip. */
-  hint?: string;
-  /** What the cell shows; absent: the column is in the file alone. */
-  show?: (row: Row) => ComponentChildren;
-  /** What the file holds, in SI units; absent: the column is on the screen alone. */
-  value?: (row: Row) => unknown;
+export interface Column<Row> extends Sortable<Row> {
   /** The column's name in the file where it is not the heading. */
   csv?: string;
   words?: boolean;
@@ -103,7 +96,7 @@ export interface Column<Row> {
 /** So many rows are drawn at once: thousands take a browser seconds. */
 const MOST_ROWS = 500;
 
-/** A table with its CSV. */
+/** A table that can be put in order and searched, with the CSV of what it shows. */
 export function Table<Row>({
   name,
   caption,
@@ -127,8 +120,10 @@ export function Table<Row>({
   const [isWhole, setWhole] = useState(false);
   const led = useRef<HTMLTableRowElement>(null);
   useEffect(() => led.current?.scrollIntoView({ block: "center" }), [chosen, rows.length > 0]);
-  const first = isWhole ? rows : rows.slice(0, MOST_ROWS);
-  const beyond = chosen === undefined ? undefined : rows.slice(first.length).find((row) => rowKey(row) === chosen);
+  const sorting = useSorting(rows, columns);
+  const wanted = sorting.shown;
+  const first = isWhole ? wanted : wanted.slice(0, MOST_ROWS);
+  const beyond = chosen === undefined ? undefined : wanted.slice(first.length).find((row) => rowKey(row) === chosen);
   const drawn = beyond === undefined ? first : [beyond, ...first];
   const shown = columns.filter((column) => column.show);
   const stored = columns.filter((column) => column.value);
@@ -136,6 +131,7 @@ export function Table<Row>({
     <div class="table">
       <div class="table-head">
         <h3>{caption}</h3>
+        <FindRows caption={caption} rows={rows} {...sorting} />
         {rows.length > 0 && stored.length > 0 && (
           <button
             type="button"
@@ -145,7 +141,7 @@ export function Table<Row>({
               saveCsv(
                 name,
                 stored.map((c) => c.csv ?? c.heading),
-                rows.map((row) => stored.map((c) => c.value!(row))),
+                wanted.map((row) => stored.map((c) => c.value!(row))),
               )
             }
           >
@@ -161,9 +157,7 @@ export function Table<Row>({
             <thead>
               <tr>
                 {shown.map((c) => (
-                  <th key={c.heading} class={c.words ? "words" : ""} scope="col" title={c.hint}>
-                    {c.hint ? <span class="term">{c.heading}</span> : c.heading}
-                  </th>
+                  <Heading key={c.heading} column={c} words={c.words ?? false} {...sorting} />
                 ))}
               </tr>
             </thead>
@@ -186,9 +180,10 @@ export function Table<Row>({
           </table>
         </div>
       )}
-      {drawn.length < rows.length && (
+      {rows.length > 0 && wanted.length === 0 && <p class="awaited">No row contains “{sorting.find}”.</p>}
+      {drawn.length < wanted.length && (
         <button type="button" class="quiet" onClick={() => setWhole(true)}>
-          show all {rows.length.toLocaleString("en")} rows
+          show all {wanted.length.toLocaleString("en")} rows
         </button>
       )}
     </div>

@@ -50,7 +50,6 @@ export function Specimens({
 }) {
   const [reviewed, setReviewed] = useState<string | null>(null);
   const [why, setWhy] = useState("");
-  const [find, setFind] = useState("");
   const [amended, setAmended] = useState<string | null>(null);
   const [fault, setFault] = useState<NoticeText | null>(null);
   const [notice, busy, submit] = useSubmit(refresh);
@@ -58,9 +57,8 @@ export function Specimens({
   const doubts = new Map(
     laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)),
   );
-  const rows = laboratory.specimens
-    .filter((s) => `${s.specimen} ${s.design} ${s.test} ${s.batch}`.toLowerCase().includes(find.toLowerCase()))
-    .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
+  const doubtful = (s: LaboratorySpecimen) => Number(doubts.has(s.specimen));
+  const rows = [...laboratory.specimens].sort((a, b) => doubtful(b) - doubtful(a));
   const reason = useRef<HTMLInputElement>(null);
   useEffect(() => reason.current?.focus(), [reviewed]);
   /** Another one may be open by now; where none is, the keyboard goes on at the button that opened it. */
@@ -133,18 +131,6 @@ export function Specimens({
   return (
     <section class="panel">
       <h2>Specimens</h2>
-      <div class="row">
-        <label>
-          Find{" "}
-          <input
-            type="search"
-            size={32}
-            value={find}
-            onInput={(e) => setFind(e.currentTarget.value)}
-            placeholder="specimen, design, test or batch"
-          />
-        </label>
-      </div>
       {playing && specimenToAmend && (
         <AmendmentForm
           key={amended}
@@ -159,16 +145,10 @@ export function Specimens({
       <Notice notice={fault ?? notice} />
       <Table
         name="specimens"
-        caption={`Review (${find ? `${rows.length} of ` : ""}${laboratory.specimens.length} specimens)`}
+        caption={`Review (${rows.length} specimens)`}
         rows={rows}
         rowKey={(s) => s.specimen}
-        empty={
-          find
-            ? `No specimen matches “${find}”.`
-            : isOver
-              ? "Nothing was measured."
-              : "Nothing has been measured yet."
-        }
+        empty={isOver ? "Nothing was measured." : "Nothing has been measured yet."}
         chosen={chosen}
         rowClass={(s) => (s.valid ? "" : "invalid")}
         columns={[
@@ -229,6 +209,7 @@ export function Specimens({
               </>
             ),
             value: (s) => s.note,
+            order: (s) => (doubtful(s) ? "0" : "1") + remarkOn(s),
           },
           { heading: "by", value: (s) => s.by },
           { heading: "why", value: (s) => s.why },
