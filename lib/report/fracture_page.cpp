@@ -1,11 +1,11 @@
 #include "report/fracture_page.hpp"
 
-#include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/base64.hpp"
 #include "pattern/coupons.hpp"
 #include "report/design_picture.hpp"
 #include "report/page.hpp"
@@ -15,20 +15,6 @@
 
 namespace nacre::report {
 namespace {
-
-/// Base64 (RFC 4648, section 4), as addresses with data in them need it.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t i = at; i < at + 3; ++i)
-      group = (group << 8) | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U);
-    for (std::size_t i = 0; i < 4; ++i) text += at + i > bytes.size() ? '=' : kDigits[(group >> (18 - 6 * i)) & 63U];
-  }
-  return text;
-}
 
 std::string name_of(const TestedDesign& tested) { return pattern::readable_name(tested.design); }
 
