@@ -29,29 +29,43 @@ std::uint64_t required_rigid_bits(int rigid_count) {
   return rigid_count >= kCornerRegionRigidCount ? region : kCornerPixel;
 }
 
-bool is_feasible(const Pattern& pattern) {
-  const int count = pattern.rigid_count();
-  return count >= kMinimumRigidCount && count <= kMaximumRigidCount &&
-         (required_rigid_bits(count) & ~pattern.bits()) == 0;
+std::uint64_t soft_corner_bits(const Pattern& pattern) {
+  return required_rigid_bits(pattern.rigid_count()) & ~pattern.bits();
 }
 
-std::optional<std::string> violation(const Pattern& pattern) {
+bool is_feasible(const Pattern& pattern) {
+  const int count = pattern.rigid_count();
+  return count >= kMinimumRigidCount && count <= kMaximumRigidCount && soft_corner_bits(pattern) == 0;
+}
+
+std::vector<std::string> violations(const Pattern& pattern) {
+  std::vector<std::string> violated;
   const int count = pattern.rigid_count();
   const double percent = 100.0 * pattern.rigid_fraction();
   if (count < kMinimumRigidCount)
-    return fmt::format("{:.0f} % of the pixels are rigid, fewer than the 50 % required", percent);
+    violated.push_back(fmt::format("{:.0f} % of the pixels are rigid, fewer than the 50 % required", percent));
   if (count > kMaximumRigidCount)
-    return fmt::format("{:.0f} % of the pixels are rigid, more than the 85 % allowed", percent);
-  const std::uint64_t missing = required_rigid_bits(count) & ~pattern.bits();
-  if (missing == 0) return std::nullopt;
-  if (count < kCornerRegionRigidCount) return "the corner pixel is soft, it must be rigid";
+    violated.push_back(fmt::format("{:.0f} % of the pixels are rigid, more than the 85 % allowed", percent));
+  const std::uint64_t missing = soft_corner_bits(pattern);
+  if (missing == 0) return violated;
+  if (count < kCornerRegionRigidCount) {
+    violated.push_back("the corner pixel is soft, it must be rigid");
+    return violated;
+  }
   int pixels = 0;
   for (std::uint64_t rest = missing; rest != 0; rest &= rest - 1)
     pixels += Pattern::orbit_size(std::countr_zero(rest)) / 4;
-  return fmt::format(
+  violated.push_back(fmt::format(
       "with {:.0f} % rigid pixels every pixel within {:.0f} pixels of a corner must be rigid, {} at each corner are "
       "soft",
-      percent, thesis::kCornerRadius.value, pixels);
+      percent, thesis::kCornerRadius.value, pixels));
+  return violated;
+}
+
+std::optional<std::string> violation(const Pattern& pattern) {
+  std::vector<std::string> violated = violations(pattern);
+  if (violated.empty()) return std::nullopt;
+  return std::move(violated.front());
 }
 
 }  // namespace nacre::pattern

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pattern/layout.hpp"
 #include "thesis/constants.hpp"
@@ -26,7 +27,13 @@ std::uint64_t required_rigid_bits(int rigid_count);
 /// Whether a proposal may have this pattern.
 bool is_feasible(const Pattern& pattern);
 
-/// The violated constraint, as a sentence; nothing when it lies in the design space.
+/// The violated constraints, a sentence each; none when it lies in the design space.
+std::vector<std::string> violations(const Pattern& pattern);
+
+/// The first of them; nothing when it lies in the design space.
 std::optional<std::string> violation(const Pattern& pattern);
+
+/// Free pixels (bits of Pattern) that the corner rule requires to be rigid and that are soft.
+std::uint64_t soft_corner_bits(const Pattern& pattern);
 
 }  // namespace nacre::pattern

@@ -50,6 +50,7 @@ TEST(Constraints, AgreeWithTheRulesWrittenOutPixelByPixel) {
 TEST(Constraints, LimitsOfTheRigidFractionAreIncluded) {
   RandomStream random(2, "test");
   for (const int percent : {50, 85}) EXPECT_FALSE(violation(random_pattern(percent, random)));
+  EXPECT_EQ(violations(Pattern()).size(), 2u);  // too soft, and so is the corner
   EXPECT_THAT(violation(Pattern()).value(), HasSubstr("0 % of the pixels are rigid, fewer than the 50 % required"));
   EXPECT_THAT(violation(pattern_of("7fffffffffffff")).value(),
               HasSubstr("100 % of the pixels are rigid, more than the 85 %"));
