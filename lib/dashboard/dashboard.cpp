@@ -1,10 +1,8 @@
 #include "dashboard/dashboard.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/files.hpp"
-#include "dashboard/design_view.hpp"
 #include "dashboard/diagnosis_view.hpp"
 #include "dashboard/entries.hpp"
 #include "dashboard/families_view.hpp"
@@ -12,10 +10,10 @@
 #include "dashboard/laboratory_view.hpp"
 #include "dashboard/next_view.hpp"
 #include "dashboard/nodes_view.hpp"
+#include "dashboard/request_parts.hpp"
 #include "dashboard/rounds_view.hpp"
 #include "dashboard/run_view.hpp"
 #include "game/budget.hpp"
-#include "game/starting_point.hpp"
 #include "run/measured_patterns.hpp"
 #include "runtime/bus.hpp"
 
@@ -24,57 +22,11 @@ namespace {
 
 constexpr std::size_t kMostReportBytes = 64u << 20;
 
-/// Why a request is refused: a status, and a sentence for the person.
-struct Refusal {
-  int status;
-  std::string message;
-};
-
-std::string parameter(const Request& request, const char* name) {
-  const auto found = request.query.find(name);
-  if (found == request.query.end()) throw Refusal{400, fmt::format("the parameter {} is missing", name)};
-  return found->second;
-}
-
-/// A whole number from 0 to a million; errors call it `name`.
-int number(const std::string& text, const char* name) {
-  int value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc{} || end != text.data() + text.size() || value < 0 || value > 1'000'000)
-    throw Refusal{400, fmt::format("{}: `{}`, expected a whole number from 0 to 1000000", name, text)};
-  return value;
-}
-
 int round_of(const Request& request) { return number(parameter(request, "round"), "round"); }
-
-pattern::Design design_of(const Request& request) {
-  const auto design = pattern::design_from_word(parameter(request, "design"));
-  if (!design) throw Refusal{400, "design: " + design.error().message};
-  return *design;
-}
-
-/// `model`: the number of a round or the name of a family.
-std::string model_of(const Request& request) {
-  const std::string model = parameter(request, "model");
-  if (!is_model_name(model))
-    throw Refusal{400, fmt::format("model: `{}`, expected the number of a round or the name of a family", model)};
-  return model;
-}
 
 /// The response to an entry that would change nothing.
 Response conflict_response(const std::string& reason) {
   return json_response({{"answer", to_string(Delivery::conflicting)}, {"error", reason}}, 409);
-}
-
-/// The model before anything was fitted: what breaks while the first search has only begun.
-constexpr std::string_view kStart = "start";
-
-bool is_round(const std::string& model) { return model.find_first_not_of("0123456789") == std::string::npos; }
-
-template <class T>
-T or_refuse(Result<T> result) {
-  if (!result) throw Refusal{400, result.error().message};
-  return std::move(*result);
 }
 
 /// Where the database cannot be read, no: the page shall go on showing the nodes.
@@ -86,12 +38,6 @@ bool is_known_to_be_over(run::Run& data) {
   }
 }
 
-Response row_response(const auto& row) { return json_response(wire::json_of(row)); }
-
-Response binary(std::string bytes) {
-  return {.type = "application/octet-stream", .body = std::move(bytes), .headers = {}};
-}
-
 }  // namespace
 
 Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
@@ -99,6 +45,7 @@ Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
       desk_(desk),
       run_(settings_.run_folder),
       family_folder_(settings_.family_folder),
+      note_folder_(settings_.run_folder / "notes"),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
 
 const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
@@ -108,8 +55,13 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
                                                       {"/api/gamut", &Dashboard::gamut},
                                                       {"/api/design", &Dashboard::design},
                                                       {"/api/film", &Dashboard::film},
+                                                      {"/api/check", &Dashboard::check},
+                                                      {"/api/mechanisms", &Dashboard::mechanisms},
                                                       {"/api/simulation", &Dashboard::simulation},
                                                       {"/api/laboratory", &Dashboard::laboratory},
+                                                      {"/api/specimen", &Dashboard::specimen},
+                                                      {"/api/notes", &Dashboard::notes},
+                                                      {"/api/photo", &Dashboard::photo},
                                                       {"/api/diagnosis", &Dashboard::diagnosis},
                                                       {"/api/next", &Dashboard::next},
                                                       {"/api/maps", &Dashboard::maps},
@@ -125,7 +77,7 @@ const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
       {"/api/measurement", &Dashboard::enter},   {"/api/review", &Dashboard::review},
       {"/api/approval", &Dashboard::decide},     {"/api/amendment", &Dashboard::amend},
       {"/api/withdrawal", &Dashboard::withdraw}, {"/api/simulate", &Dashboard::simulate},
-      {"/api/grouping", &Dashboard::group}};
+      {"/api/grouping", &Dashboard::group},      {"/api/note", &Dashboard::note}};
   return routes;
 }
 
@@ -209,82 +161,6 @@ Response Dashboard::gamut(const Request& request) {
   if (searched.patterns.empty() && !run_.record()->rounds.contains(round))
     return error_response(404, "there is no such round");
   return binary(gamut_bytes(searched, round));
-}
-
-Response Dashboard::design(const Request& request) {
-  return row_response(design_row(*run_.record(), design_of(request)));
-}
-
-Dashboard::FractureRequest Dashboard::fracture_request(const Request& request, const pattern::Design& design,
-                                                       const std::string& model) {
-  const auto map = request.query.find("map");
-  return {design, model, map != request.query.end() && map->second.starts_with(model + "/")};
-}
-
-Dashboard::FractureRequest Dashboard::fracture_request(const Request& request) {
-  return fracture_request(request, design_of(request), model_of(request));
-}
-
-std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string& model) {
-  const auto record = run_.record();
-  for (const run::FamilyRecord& family : record->families)
-    if (family.stated.name == model) return family.stated.parameters;
-  if (!is_round(model)) return std::nullopt;
-  const auto round = record->rounds.find(number(model, "model"));
-  if (round == record->rounds.end() || !round->second.model) return std::nullopt;
-  return round->second.model->parameters;
-}
-
-Result<material::ParameterSet> Dashboard::parameters_of(const FractureRequest& fracture) {
-  if (fracture.model == kStart) return game::starting_model(settings_.scenario).parameters;
-  if (!fracture.is_of_folder)
-    if (const auto parameters = model_of_game(fracture.model)) return *parameters;
-  if (is_round(fracture.model)) return fail("round {} has no model yet", fracture.model);
-  return family_folder_.model(fracture.model);  // of a family grouped otherwise the folder alone knows
-}
-
-bool Dashboard::is_by_game(const FractureRequest& fracture) {
-  if (!fracture.is_of_folder) return true;
-  const auto of_folder = family_folder_.model(fracture.model);
-  return of_folder && model_of_game(fracture.model) == *of_folder;  // `nacre families` takes models from the stage
-}
-
-Background::State Dashboard::made(const FractureRequest& fracture) {
-  const auto parameters = parameters_of(fracture);
-  return parameters ? films_.made(fracture.design, *parameters) : Background::State{};
-}
-
-Json Dashboard::simulation_state(const FractureRequest& fracture) {
-  if (films_.name_in_run(*run_.record(), fracture.design.name(), fracture.model) && is_by_game(fracture))
-    return {{"state", "ready"}, {"source", "run"}};
-  const Background::State state = made(fracture);
-  Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
-  if (state.result) json["modulus_pa"] = json_or_null(unpacked(*state.result).modulus_pa);
-  if (!state.problem.empty()) json["problem"] = state.problem;
-  return json;
-}
-
-Response Dashboard::simulation(const Request& request) {
-  return json_response(simulation_state(fracture_request(request)));
-}
-
-Response Dashboard::film(const Request& request) {
-  const FractureRequest fracture = fracture_request(request);
-  auto film = films_.of_run(*run_.record(), fracture.design.name(), fracture.model);
-  if (film && is_by_game(fracture)) return binary(*std::move(film));
-  const Background::State state = made(fracture);
-  if (!state.result) return error_response(404, "there is no film of this design yet");
-  return binary(std::string(unpacked(*state.result).film));
-}
-
-Response Dashboard::simulate(const Request& request) {
-  const SimulationRequest wanted = or_refuse(simulation_request_from_json(request.body));
-  const FractureRequest fracture = fracture_request(request, wanted.design, wanted.model);
-  const auto parameters = parameters_of(fracture);
-  if (!parameters) return error_response(409, parameters.error().message);
-  if (!films_.make(wanted.design, *parameters))
-    return error_response(503, "too many simulations are waiting: try again in a minute");
-  return json_response(simulation_state(fracture), 202);
 }
 
 Response Dashboard::laboratory(const Request&) {

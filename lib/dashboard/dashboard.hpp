@@ -1,6 +1,7 @@
 #pragma once
 // The dashboard of one run: requests in, responses out. The routes are listed in docs/FORMATS.md.
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "dashboard/films.hpp"
 #include "dashboard/http.hpp"
 #include "dashboard/maps.hpp"
+#include "dashboard/notes.hpp"
 #include "dashboard/runs_view.hpp"
 #include "game/scenario.hpp"
 #include "run/run.hpp"
@@ -47,8 +49,13 @@ class Dashboard {
   Response gamut(const Request&);
   Response design(const Request&);
   Response film(const Request&);
+  Response check(const Request&);
+  Response mechanisms(const Request&);
   Response simulation(const Request&);
   Response laboratory(const Request&);
+  Response specimen(const Request&);
+  Response notes(const Request&);
+  Response photo(const Request&);
   Response diagnosis(const Request&);
   Response next(const Request&);
   Response maps(const Request&);
@@ -63,6 +70,7 @@ class Dashboard {
   Response withdraw(const Request&);
   Response simulate(const Request&);
   Response group(const Request&);
+  Response note(const Request&);
 
   /// A design whose fracture is asked for, and with which model: the number of a round or the name of a family.
   struct FractureRequest {
@@ -95,6 +103,9 @@ class Dashboard {
   std::optional<LiveSearch::Progress> rounds_search_;
   std::string rounds_;  ///< JSON; of 10,000 specimens it takes a while
   FamilyFolder family_folder_;
+  NoteFolder note_folder_;
+  std::mutex modulus_mutex_;  ///< one modulus at a time, however many ask
+  std::atomic<int> moduli_asked_ = 0;
   Films films_;
   Background maps_;
 };

@@ -12,6 +12,7 @@
 
 #include "base/result.hpp"
 #include "dashboard/live_search.hpp"
+#include "dashboard/notes.hpp"
 #include "dashboard/round_price.hpp"
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
@@ -114,6 +115,8 @@ class Desk {
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder,
                              const std::vector<families::SeedFamily>& families) = 0;
+  /// Writes a note into `folder`. Refused where that takes no more.
+  virtual Answer keep_note(const NoteFolder& folder, const Note& note) = 0;
 };
 
 }  // namespace nacre::dashboard

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/base64.hpp"
+#include "base/csv.hpp"
 #include "base/names.hpp"
 #include "families/families_file.hpp"
 #include "families/grouping.hpp"
@@ -48,6 +50,44 @@ Result<std::string> text_of(const Json& object, const char* name, bool required 
   if (std::ranges::any_of(text, is_control)) return fail("{}: holds a control character", name);
   if (required && text.find_first_not_of(' ') == std::string::npos) return fail("{}: is empty, expected a text", name);
   return text;
+}
+
+/// A text of several lines; empty when the member is absent.
+Result<std::string> lines_of(const Json& object, const char* name, std::size_t most_bytes) {
+  const auto found = object.find(name);
+  if (found == object.end() || found->is_null()) return std::string();
+  if (!found->is_string()) return fail("{}: {}, expected a text", name, typed(*found));
+  const auto& text = found->get_ref<const std::string&>();
+  if (text.size() > most_bytes) return fail("{}: has {} bytes, expected at most {}", name, text.size(), most_bytes);
+  if (std::ranges::any_of(text, [](char letter) { return is_control(letter) && letter != '\n'; }))
+    return fail("{}: holds a control character", name);
+  return text;
+}
+
+/// The bytes of a photo; empty when there is none.
+Result<std::string> photo_of(const Json& object) {
+  const auto found = object.find("photo");
+  if (found == object.end() || found->is_null()) return std::string();
+  if (!found->is_string()) return fail("photo: {}, expected base64", typed(*found));
+  auto bytes = bytes_of_base64(found->get_ref<const std::string&>());
+  if (!bytes) return fail("photo: is no base64");
+  if (bytes->empty()) return std::string();
+  if (bytes->size() > kMostPhotoBytes)
+    return fail("photo: has {} bytes, expected at most {}", bytes->size(), kMostPhotoBytes);
+  if (const auto kind = picture_kind(*bytes); !kind) return fail("photo: {}", kind.error().message);
+  return std::move(*bytes);
+}
+
+/// Why nothing can be written down about this; empty where it can.
+std::string fault_in_subject(const std::string& about, const std::string& name) {
+  if (about == "specimen") return "";
+  if (about == "design") {
+    const auto design = pattern::design_from_name(name);
+    return design ? "" : "name: " + design.error().message;
+  }
+  if (about != "round") return fmt::format("about: '{}', expected specimen, design or round", about);
+  const auto round = integer_from_text(name);
+  return round && *round >= 0 && *round <= kLastRound ? "" : fmt::format("name: '{}', expected a round", name);
 }
 
 Result<bool> flag_of(const Json& object, const char* name) {
@@ -207,6 +247,22 @@ Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view te
   } catch (const InputError& error) {
     return fail("{}", error.what());
   }
+}
+
+Result<Note> note_from_json(std::string_view text) {
+  constexpr std::size_t kMostNoteBytes = 4000;
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto about = text_of(*object, "about", true), name = text_of(*object, "name", true),
+             by = text_of(*object, "by", true), words = lines_of(*object, "text", kMostNoteBytes);
+  auto photo = photo_of(*object);
+  for (const auto* each : {&about, &name, &by, &words})
+    if (!*each) return tl::unexpected(each->error());
+  if (!photo) return tl::unexpected(photo.error());
+  if (const std::string fault = fault_in_subject(*about, *name); !fault.empty()) return fail("{}", fault);
+  if (words->find_first_not_of(" \n") == std::string::npos && photo->empty())
+    return fail("text: is empty, expected a text or a photo");
+  return Note{*about, *name, *by, *words, std::move(*photo)};
 }
 
 bool is_model_name(std::string_view name) { return is_plain_name(name, families::kLongestFamilyName); }

@@ -5,6 +5,7 @@
 
 #include "base/result.hpp"
 #include "dashboard/desk.hpp"
+#include "dashboard/notes.hpp"
 
 namespace nacre::dashboard {
 
@@ -23,6 +24,9 @@ Result<Amendment> amendment_from_json(std::string_view text);
 
 /// `order` or `design` (canonical name), `withdrawn`, `by`, `why` (may be empty where an order is given again).
 Result<Withdrawal> withdrawal_from_json(std::string_view text);
+
+/// `about`, `name`, `by`, `text` (lines end with LF), `photo` (base64, may be absent); a text or a photo at least.
+Result<Note> note_from_json(std::string_view text);
 
 /// Whether a text names a model: the number of a round or the name of a family.
 bool is_model_name(std::string_view name);

@@ -10,6 +10,7 @@
 #include "measurement/specimen_checks.hpp"
 #include "measurement/typed_specimen.hpp"
 #include "output.hpp"
+#include "runtime/bus.hpp"
 #include "runtime/log_pieces.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
@@ -71,6 +72,11 @@ std::shared_ptr<const dashboard::Laboratory> RunDesk::laboratory() {
 void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) {
   make_folder(folder.string());
   write_file_atomically(folder / "families.toml", families::to_toml(families));
+}
+
+Answer RunDesk::keep_note(const dashboard::NoteFolder& folder, const dashboard::Note& note) {
+  const auto kept = folder.keep(note, runtime::now_utime());
+  return kept ? Answer{} : Answer{Delivery::refused, kept.error().message};
 }
 
 Answer RunDesk::hand_in(const runtime::Message& message) {

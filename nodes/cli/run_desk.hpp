@@ -27,6 +27,7 @@ class RunDesk : public dashboard::Desk {
   std::optional<std::string> against(const dashboard::Approval& approval) override;
   std::optional<std::string> against(const dashboard::Withdrawal& withdrawal) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) override;
+  dashboard::Answer keep_note(const dashboard::NoteFolder& folder, const dashboard::Note& note) override;
 
  private:
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen, const std::optional<game::Amendment>& amend);

@@ -48,6 +48,7 @@ dashboard::SeveralRuns& page() {
   desk.withdrawals.clear();
   desk.amendments.clear();
   desk.groupings.clear();
+  desk.notes.clear();
   return page;
 }
 
@@ -75,6 +76,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(!amendment->why.empty() && !amendment->changes.empty());
   if (const auto withdrawal = dashboard::withdrawal_from_json(request.body))
     fuzz::expect(withdrawal->order.empty() != withdrawal->design.empty());
+  if (const auto note = dashboard::note_from_json(request.body))
+    fuzz::expect(note->photo.empty() ? !note->text.empty() : dashboard::picture_kind(note->photo).has_value());
   (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
     for (const families::SeedFamily& family : *grouping)

@@ -128,6 +128,12 @@ void add_requests(const Corpus& corpus) {
           R"(0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
   corpus.add("dashboard", "review",
              "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
+  corpus.add("dashboard", "check", "GET /api/check\n" + host + "?design=577fffe9fffdef\n?model=start\n\n");
+  corpus.add("dashboard", "specimen", "GET /api/specimen\n" + host + "?specimen=a-1\n\n");
+  corpus.add("dashboard", "photo", "GET /api/photo\n" + host + "?file=20260102T030405Z-specimen-a-0123456789.jpg\n\n");
+  corpus.add("dashboard", "note",
+             "POST /api/note\n" + entry +
+                 R"({"about":"design","name":"577fffe9fffdef","by":"Ada","text":"a\nb","photo":"iVBORw0KGgoAAAAN"})");
   corpus.add("dashboard", "families", "GET /api/families\n" + host + cookie + "\n");
   corpus.add("dashboard", "grouping",
              "POST /api/grouping\n" + entry + R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})");

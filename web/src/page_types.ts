@@ -211,6 +211,29 @@ export interface Design {
   specimens: Specimen[];
 }
 
+export interface DesignCheck {
+  design: string;
+  rigid_fraction: number;
+  violations: string[];
+  soft_corner: string;
+  modulus_pa: number | null;
+  problem: string;
+}
+
+export interface DesignMechanisms {
+  design: string;
+  model: string;
+  deflection: number;
+  branching: number;
+  bridging: number;
+  soft_arrest: number;
+  guidance: number;
+}
+
+export interface Mechanisms {
+  designs: DesignMechanisms[];
+}
+
 export interface OpenProposal {
   round: number;
   simulations: number;
@@ -355,6 +378,52 @@ export interface NextRound {
   is_scatter_of_fit: boolean;
   sentence: string;
   price: Price;
+}
+
+export interface ToldMeasurement {
+  order: string;
+  round: number;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard: boolean;
+  batch: string;
+  print_order: number;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  modulus_of_curve_pa: number | null;
+  toughness_of_curve_pa: number | null;
+  points: number;
+  valid: boolean;
+  note: string;
+}
+
+export interface ToldReview {
+  revision: number;
+  valid: boolean;
+  by: string;
+  why: string;
+}
+
+export interface SpecimenStory {
+  specimen: string;
+  measurements: ToldMeasurement[];
+  reviews: ToldReview[];
+}
+
+export interface Note {
+  about: string;
+  name: string;
+  by: string;
+  when: string;
+  text: string;
+  photo: string;
+}
+
+export interface Notes {
+  notes: Note[];
 }
 
 export interface Effect {

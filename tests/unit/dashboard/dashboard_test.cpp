@@ -12,12 +12,14 @@
 #include "../wire/samples.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "crack/mechanisms.hpp"
 #include "dashboard/server.hpp"
 #include "dashboard/several_runs.hpp"
 #include "fake_desk.hpp"
 #include "families/families_file.hpp"
 #include "material/parameter_file.hpp"
 #include "run/run_database.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -453,6 +455,69 @@ TEST_F(DashboardOfARun, AFilmMadeHereIsKnownByTheParametersThatBrokeIt) {
 TEST_F(DashboardOfARun, AModelThatTheGameHasNotCannotBeSimulatedWith) {
   EXPECT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"family-9"})").status, 409);
   EXPECT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"99"})").status, 409);
+}
+
+TEST_F(DashboardOfARun, APatternThatIsDrawnHasItsModulusAndItsViolationsAtOnce) {
+  const Json published = json("/api/check", {{"design", "577fffe9fffdef"}, {"model", "start"}});
+  EXPECT_EQ(published["violations"], Json::array());
+  EXPECT_EQ(published["soft_corner"], "00000000000000");
+  EXPECT_NEAR(published["modulus_pa"].get<double>(), 1.2e9, 0.6e9);
+  const Json soft = json("/api/check", {{"design", "00000000000000"}, {"model", "start"}});
+  ASSERT_EQ(soft["violations"].size(), 2u);
+  EXPECT_THAT(soft["violations"][0].get<std::string>(), HasSubstr("fewer than the 50 %"));
+  EXPECT_EQ(soft["violations"][1], "the corner pixel is soft, it must be rigid");
+  EXPECT_EQ(soft["soft_corner"], "00000000000001");
+  EXPECT_LT(soft["modulus_pa"].get<double>(), 0.01 * published["modulus_pa"].get<double>());
+  const Json skewed = json("/api/check", {{"design", "L8" + std::string(99, '0')}, {"model", "start"}});
+  EXPECT_THAT(skewed["violations"][0].get<std::string>(), HasSubstr("lacks the eightfold symmetry"));
+  EXPECT_EQ(get("/api/check", {{"design", "soft"}, {"model", "99"}}).status, 409);
+  EXPECT_EQ(get("/api/check", {{"design", "soft"}}).status, 400);
+}
+
+TEST_F(DashboardOfARun, MechanismsComeOfCracksThatFitTheSpecimens) {
+  EXPECT_EQ(json("/api/mechanisms")["designs"], Json::array());
+  tester::Simulation simulation{pattern::design_from_name("577fffe9fffdef").value(),
+                                wire::samples::family().parameters,
+                                {},
+                                tester::Fidelity::tiny};
+  const auto result = tester::test_toughness(simulation);
+  ASSERT_TRUE(result) << result.error().message;
+  wire::Fracture fracture = wire::samples::fracture();
+  fracture.design = simulation.design;
+  fracture.crack = crack::record_of(simulation, result->breaks);
+  fracture.broken = static_cast<int>(result->breaks.size());
+  fracture.request_id = fmt::format("analyser/family{}/films", wire::samples::family().number);
+  run::RunDatabase(folder_ / "run.db").keep("FRACTURE", wire::write(fracture));
+  const Json designs = json("/api/mechanisms")["designs"];
+  ASSERT_EQ(designs.size(), 1u);
+  EXPECT_EQ(designs[0]["design"], "577fffe9fffdef");
+  EXPECT_EQ(designs[0]["model"], "family-2");
+  const auto mechanisms = crack::mechanisms_of(simulation, fracture.crack);
+  EXPECT_EQ(designs[0]["deflection"], mechanisms.deflection);
+  EXPECT_EQ(designs[0]["branching"], mechanisms.branching);
+}
+
+TEST_F(DashboardOfARun, ASpecimensStoryHoldsWhatCameAndEveryReview) {
+  wire::Measurement measured = wire::samples::measurement();
+  measured.record.specimen = "told";
+  run::RunDatabase database(folder_ / "run.db");
+  database.keep("MEASUREMENT", wire::write(measured));
+  for (const int revision : {2, 1}) {
+    wire::Review review;
+    review.specimen = "told";
+    review.revision = revision;
+    review.valid = revision == 2;
+    review.by = "Ada";
+    review.why = fmt::format("look {}", revision);
+    database.keep("REVIEW", wire::write(review));
+  }
+  const Json story = json("/api/specimen", {{"specimen", "told"}});
+  ASSERT_EQ(story["measurements"].size(), 1u);
+  EXPECT_EQ(story["measurements"][0]["points"], measured.record.curve.size());
+  ASSERT_EQ(story["reviews"].size(), 2u);
+  EXPECT_EQ(story["reviews"][0]["why"], "look 1");
+  EXPECT_EQ(story["reviews"][1]["valid"], true);
+  EXPECT_EQ(json("/api/specimen", {{"specimen", "nobody"}})["measurements"], Json::array());
 }
 
 TEST_F(DashboardOfARun, APersonGroupsMeasuredDesigns) {

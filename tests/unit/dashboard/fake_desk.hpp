@@ -38,6 +38,8 @@ class FakeDesk : public Desk {
     groupings.push_back(families);
   }
 
+  Answer keep_note(const NoteFolder&, const Note& note) override { return notes.push_back(note), answer; }
+
   std::shared_ptr<const Laboratory> picture = std::make_shared<const Laboratory>();
   std::vector<NodeReport> reports;
   LiveSearch live;
@@ -50,6 +52,7 @@ class FakeDesk : public Desk {
   std::vector<Withdrawal> withdrawals;
   std::vector<Amendment> amendments;
   std::vector<std::vector<families::SeedFamily>> groupings;
+  std::vector<Note> notes;
 };
 
 }  // namespace nacre::dashboard
