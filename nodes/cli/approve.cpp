@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "output.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
+#include "shortlist.hpp"
 #include "wire/convert.hpp"
 #include "withdraw.hpp"
 
@@ -29,6 +31,7 @@ struct ApproveOptions {
   bool add = false;
   bool withdraw = false;
   bool undo = false;
+  std::string shortlist;
   std::string why;
   std::string by = user_name();
   double timeout_s = 60.0;
@@ -127,54 +130,82 @@ int say_when_measured(const RunAccess& run, const pattern::Design& design) {
   return 0;
 }
 
-/// Designs that nobody proposed, to be measured with the rest. Status 1 when one of them is ordered already, or no
-/// round is left to measure it in.
+/// One decision. Status 1 when it changes nothing; nothing where a node did not confirm it. `say_taken` says what comes
+/// of one that counts, and returns its status.
+std::optional<int> enter(const ApproveOptions& options, const RunAccess& run, const game::LaboratoryFacts& facts,
+                         const game::StatedApproval& decision, const std::function<int()>& say_taken) {
+  if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
+    remark(*reason);
+    return 1;
+  }
+  const Delivered delivered = send(options, run, decision);
+  if (!delivered.missing.empty()) return std::nullopt;
+  return delivered.refusal ? 1 : say_taken();
+}
+
+/// A design that nobody proposed, to be measured with the rest. Status 1 when it is ordered already, or no round is
+/// left to measure it in.
+std::optional<int> add_own(const ApproveOptions& options, const RunAccess& run, const game::LaboratoryFacts& facts,
+                           const pattern::Design& design) {
+  return enter(options, run, facts, {-1, design, true, options.by, options.why},
+               [&] { return say_when_measured(run, design); });
+}
+
+/// Yes or no to a design of a proposal. Status 1 when it was decided on before, the other way.
+std::optional<int> decide(const ApproveOptions& options, const RunAccess& run, const game::LaboratoryFacts& facts,
+                          int round, const pattern::Design& design) {
+  return enter(options, run, facts, {round, design, !options.reject, options.by, options.why}, [&] {
+    fmt::print("{} {}\n", design.name(), word(!options.reject));
+    return 0;
+  });
+}
+
+/// The worst status of all; the first one that no node confirms ends it.
+int each_of(const std::vector<pattern::Design>& designs,
+            const std::function<std::optional<int>(const pattern::Design&)>& enter) {
+  int status = 0;
+  for (const pattern::Design& design : designs) {
+    const std::optional<int> one = enter(design);
+    if (!one) return 1;
+    status = std::max(status, *one);
+  }
+  return status;
+}
+
+bool is_over(const RunAccess& run) {
+  const bool over = !round_played(run);
+  if (over) remark("the game is over: nothing more will be measured");
+  return over;
+}
+
+/// Designs of a person's own.
 int add_own(const ApproveOptions& options, const RunAccess& run) {
   if (options.designs.empty()) throw InputError("nacre approve --add: expected designs to add");
   if (options.all) throw InputError("nacre approve: expected --add alone, without --all");
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
-  if (!round_played(run)) {
-    remark("the game is over: nothing more will be measured");
-    return 1;
-  }
+  if (is_over(run)) return 1;
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
-  int status = 0;
-  for (const pattern::Design& design : designs) {
-    const game::StatedApproval decision{-1, design, true, options.by, options.why};
-    if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
-      remark(*reason);
-      status = 1;
-      continue;
-    }
-    const Delivered delivered = send(options, run, decision);
-    if (!delivered.missing.empty()) return 1;
-    status = std::max(status, delivered.refusal ? 1 : say_when_measured(run, design));
-  }
-  return status;
+  return each_of(designs, [&](const pattern::Design& design) { return add_own(options, run, facts, design); });
 }
 
-/// Says yes or no to designs of a proposal. Status 1 when one of them was decided on before, the other way.
-int decide(const ApproveOptions& options, const RunAccess& run, const game::LaboratoryFacts& facts,
-           const wire::Proposal& proposal) {
-  const std::vector<pattern::Design> designs = designs_meant(options, proposal);
-  int status = 0;
-  for (const pattern::Design& design : designs) {
-    const game::StatedApproval decision{proposal.round, design, !options.reject, options.by, options.why};
-    if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
-      remark(*reason);
-      status = 1;
-      continue;
-    }
-    const Delivered delivered = send(options, run, decision);
-    if (!delivered.missing.empty()) return 1;
-    if (delivered.refusal) {
-      status = 1;
-    } else {
-      fmt::print("{} {}\n", design.name(), word(decision.approved));
-    }
-  }
-  return status;
+/// A shortlist: designs that wait in the proposal are approved there, others added.
+int approve_listed(const ApproveOptions& options, const RunAccess& run) {
+  const std::vector<pattern::Design> designs = read_shortlist(options.shortlist);
+  if (is_over(run)) return 1;
+  const LaboratoryView laboratory = view_laboratory(run);
+  const auto proposal = open_proposal(run, laboratory);
+  const std::map<std::string, game::DesignStage> stages = stages_in(laboratory.facts);
+  const auto waits = [&](const pattern::Design& design) {
+    if (!proposal || !run.scenario.validation.approval) return false;
+    const auto known = stages.find(design.name());
+    if (known != stages.end() && known->second != game::DesignStage::pending) return false;
+    return std::ranges::any_of(proposal->designs, [&](const auto& each) { return each.design == design; });
+  };
+  return each_of(designs, [&](const pattern::Design& design) {
+    return waits(design) ? decide(options, run, laboratory.facts, proposal->round, design)
+                         : add_own(options, run, laboratory.facts, design);
+  });
 }
 
 /// The designs, each with its state, and how many wait for a person.
@@ -196,6 +227,8 @@ void list_designs(const LaboratoryView& laboratory, const wire::Proposal& propos
 void check_designs_meant(const ApproveOptions& options) {
   const int ways = options.add + options.reject + options.withdraw + options.undo;
   if (ways > 1) throw InputError("nacre approve: expected one of --add, --reject, --withdraw and --undo");
+  if (!options.shortlist.empty() && (ways > 0 || options.all || !options.designs.empty()))
+    throw InputError("nacre approve: expected --shortlist alone, without designs, --add, --all or --reject");
   if (options.add) return;
   if (options.withdraw || options.undo) {
     if (options.designs.empty() || options.all)
@@ -218,6 +251,7 @@ int approve(const ApproveOptions& options) {
   if (options.withdraw || options.undo)
     return change_orders(run, options.designs, {.withdrawn = options.withdraw, .by = options.by, .why = options.why},
                          options.timeout_s);
+  if (!options.shortlist.empty()) return approve_listed(options, run);
   const LaboratoryView laboratory = view_laboratory(run);
   const auto proposal = open_proposal(run, laboratory);
   if (!proposal) {
@@ -229,7 +263,9 @@ int approve(const ApproveOptions& options) {
     fmt::print("{}", price_line(run, laboratory));
     return 0;
   }
-  return decide(options, run, laboratory.facts, *proposal);
+  return each_of(designs_meant(options, *proposal), [&](const pattern::Design& design) {
+    return decide(options, run, laboratory.facts, proposal->round, design);
+  });
 }
 
 }  // namespace
@@ -244,6 +280,9 @@ void add_approve(CLI::App& app, Action& action) {
   add_run_option(command, options->run);
   command.add_flag("--all", options->all, "All designs that were proposed last");
   command.add_flag("--add", options->add, "Add designs of your own, to be measured with the others");
+  command.add_option(
+      "--shortlist", options->shortlist,
+      "CSV of the dashboard's shortlist (column design): approve what waits in the proposal, add the rest");
   command.add_flag("--reject", options->reject, "Reject them");
   command.add_flag("--withdraw", options->withdraw,
                    "Withdraw what is open of their orders, which cannot be made: the round closes without");

@@ -1,10 +1,11 @@
 // Finding, sorting and choosing on the page of a game that waits for a person, and what is entered from there.
 
 import assert from "node:assert/strict";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { browser, leave, photograph, savedFrom, visit, visitWith } from "./browser.mjs";
-import { endAll, openDashboard, playGame, ROOT, until } from "./games.mjs";
+import { endAll, nacre, openDashboard, playGame, ROOT, until } from "./games.mjs";
 
 const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
 const live = await openDashboard(game.folder);
@@ -65,6 +66,90 @@ test("a table is put in order by its headings and narrowed by what it shall hold
   await table.getByRole("searchbox").fill("");
   await table.locator("th", { hasText: /^specimen/ }).getByRole("button").click();
   assert.deepEqual(await first(), rows.map((r) => r.specimen)); // s-2 before s-10
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+});
+
+const PUBLISHED = "577fffe9fffdef";
+const read = async (path) => (await fetch(`${live.url}runs/game${path}`)).json();
+const stateOf = async (design) =>
+  (await read("/api/laboratory")).designs.find((d) => d.design === design)?.state ?? "unknown";
+
+test("a box on the gamut fills a shortlist, which is approved on the page and by the command line", async () => {
+  const on = await visit(`${live.url}#game`);
+  const panel = on.getByRole("region", { name: "shortlist" });
+  const listed = () => panel.locator("tbody tr").count();
+  await on.locator(".brush summary").click();
+  await on.locator(".brush .row [role=status]", { hasText: /^[1-9]\d* chosen/ }).waitFor();
+  await on.getByRole("button", { name: "draw a box on the chart" }).click();
+  await on.locator(".brush-box").scrollIntoViewIfNeeded();
+  const chart = await on.locator(".brush-box").boundingBox();
+  await on.mouse.move(chart.x + 60, chart.y + 16);
+  await on.mouse.down();
+  await on.mouse.move(chart.x + chart.width * 0.7, chart.y + chart.height - 50, { steps: 4 });
+  await on.mouse.up();
+  const bounds = {};
+  for (const name of ["E at least, GPa", "E at most, GPa", "T at least, MPa", "T at most, MPa"])
+    bounds[name] = Number(await on.getByLabel(name).inputValue());
+  assert.ok(bounds["E at most, GPa"] > bounds["E at least, GPa"], JSON.stringify(bounds));
+  assert.ok(bounds["T at most, MPa"] > bounds["T at least, MPa"], JSON.stringify(bounds));
+  await on.getByLabel("among").selectOption("all");
+  await on.getByLabel("rigid share at least, %").fill("55");
+  await on.getByLabel("printed").selectOption("not printed");
+  await photograph(on, "shortlist-brushed");
+  await on.getByRole("button", { name: /^Add [1-9]\d* to the shortlist/ }).click();
+  const count = await listed();
+  assert.ok(count > 0);
+  const { name, bytes } = await savedFrom(on, panel.getByRole("button", { name: "Shortlist as CSV" }));
+  assert.equal(name, "game-shortlist.csv");
+  const rows = bytes.toString().trim().split("\n").map((line) => line.split(","));
+  assert.deepEqual(rows[0].slice(0, 4), ["design", "modulus_pa", "toughness_pa", "rigid_fraction"]);
+  assert.equal(rows.length, count + 1);
+  for (const [, e, t, rigid] of rows.slice(1)) {
+    assert.ok(e >= bounds["E at least, GPa"] * 1e9 && e <= bounds["E at most, GPa"] * 1e9, `E ${e}`);
+    assert.ok(t >= bounds["T at least, MPa"] * 1e6 && t <= bounds["T at most, MPa"] * 1e6, `T ${t}`);
+    assert.ok(rigid >= 0.55, `rigid share ${rigid}`);
+  }
+  const [design, , , rigid] = rows.at(-1);
+  assert.equal(Number(rigid), (await read(`/api/design?design=${design}`)).rigid_fraction);
+  await on.reload();
+  await until(async () => (await listed()) === count, 20, "the shortlist outlives a reload");
+  await panel.getByRole("button", { name: "empty the list" }).click();
+  assert.equal(await listed(), 0);
+
+  const [proposed] = (await read("/api/laboratory")).proposal.designs.map((d) => d.design);
+  const own = rows.slice(1).map(([design]) => design).filter((design) => design !== proposed);
+  assert.ok(own.length > 2, "the box holds designs that nobody proposed");
+  for (const design of [proposed, own[0]]) {
+    await on.goto(`${live.url}#/run/game/game/design/${design}`);
+    await on.getByRole("button", { name: "onto the shortlist" }).click();
+    await on.getByRole("button", { name: "off the shortlist" }).waitFor();
+  }
+  assert.equal(await listed(), 2);
+  await panel.getByLabel("Why").fill("worth a look");
+  await panel.getByRole("button", { name: "Approve all 2" }).click();
+  await panel.locator(".notice.good", { hasText: "2 designs will be measured." }).waitFor();
+  assert.equal(await listed(), 0);
+  await until(async () => (await stateOf(proposed)) !== "pending", 20, "the proposal counts");
+
+  const file = join(game.folder, "..", "shortlist.csv");
+  writeFileSync(file, `E,design\n1,${own[1]}\n2,${own[2]}\n2,${own[2]}\n`);
+  const said = nacre("approve", "--run", game.folder, "--shortlist", file, "--by", "Ada");
+  assert.match(said, new RegExp(`^${own[1]} added.*\n${own[2]} added.*\n$`));
+  writeFileSync(file, "pattern\n" + own[1]);
+  assert.throws(() => nacre("approve", "--run", game.folder, "--shortlist", file), /shortlist.csv:1: expected a shortlist/);
+  writeFileSync(file, "design\nsoft\nnonsense\n");
+  assert.throws(() => nacre("approve", "--run", game.folder, "--shortlist", file), /shortlist.csv:3: design: /);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+});
+
+test("a design that one has found is ordered where it is shown", async () => {
+  const on = await visit(`${live.url}#/run/game/explorer/design/${PUBLISHED}`);
+  await on.getByRole("button", { name: "Have it measured" }).click();
+  await on.locator(".measure").getByLabel("Why").fill("published");
+  await on.getByRole("button", { name: "Order it" }).click();
+  await on.locator(".notice.good", { hasText: `${PUBLISHED} will be measured` }).waitFor();
   assert.deepEqual(on.troubles, []);
   await leave(on);
 });

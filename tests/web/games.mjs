@@ -56,6 +56,9 @@ export async function playGame(scenario, name) {
   return game;
 }
 
+/** What a command of nacre's prints; throws where it ends with another status than 0. */
+export const nacre = (...words) => execFileSync(NACRE, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+
 /** `nacre dashboard` of a run, or of a list of them, with the address of its page. */
 export async function openDashboard(run, ...options) {
   const dashboard = start(NACRE, ["dashboard", ...[run].flat(), "--port", "0", "--page", join(BUILD, "web"), ...options]);

@@ -8,9 +8,11 @@ import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
+import { Measure } from "./measure";
 import { duration, gpa, MPA, mpa, percent } from "./numbers";
 import { Awaited, MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
+import type { Listed } from "./shortlist";
 
 const WAIT_MS = 500;
 
@@ -267,15 +269,39 @@ function FilmWait({ state }: { state: FilmState }) {
   );
 }
 
+const known = (pa: number | null | undefined) => (pa === undefined || Number.isNaN(pa) ? null : pa);
+
+/** As the shortlist has it, with what is known of it. */
+function listedOf(chosen: Chosen, design: Design): Listed {
+  const values = predictionOf(chosen, design) ?? simulationOf(chosen, design);
+  return {
+    design: chosen.design,
+    of: chosen.of,
+    rigid_fraction: design.rigid_fraction,
+    modulus_pa: known(values.modulus_pa),
+    toughness_pa: known(values.toughness_pa),
+  };
+}
+
 /** A chosen design, read again whenever the run's `data` change. */
 export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | null }) {
   const { value: design, problem } = useReading<Design>("/api/design", { design: chosen.design }, data);
   if (!design) return <Awaited problem={problem && `“${chosen.design}” cannot be shown. ${problem}`} />;
-  return <DesignRead chosen={chosen} design={design} problem={problem} />;
+  return <DesignRead chosen={chosen} design={design} problem={problem} data={data} />;
 }
 
 /** The same, once the run has said what it knows of the design. */
-function DesignRead({ chosen, design, problem }: { chosen: Chosen; design: Design; problem: string }) {
+function DesignRead({
+  chosen,
+  design,
+  problem,
+  data,
+}: {
+  chosen: Chosen;
+  design: Design;
+  problem: string;
+  data: string | null;
+}) {
   const [frame, setFrame] = useState(0);
   const state = useFilm(chosen);
   return (
@@ -294,6 +320,7 @@ function DesignRead({ chosen, design, problem }: { chosen: Chosen; design: Desig
         </div>
       </div>
       <Problem text={problem} />
+      <Measure listed={listedOf(chosen, design)} data={data} />
       {design.proposals.map((p) => (
         <Reason
           key={p.round}

@@ -2,6 +2,8 @@
 
 import { useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
+import { BrushBox } from "./brush_box";
+import { BrushPanel, useBrush } from "./brush_panel";
 import { chosenInGame } from "./chosen";
 import { roundColour, themeColour } from "./colour";
 import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel } from "./design_panel";
@@ -14,6 +16,7 @@ import { useGamuts } from "./reading";
 import { addressOf, type Looking } from "./route";
 import { lastProposing, newestModel } from "./rounds";
 import { closedRounds, CSV, FIGURES, pointsOf, type FigureName } from "./run_figures";
+import { ShortlistPanel } from "./shortlist_panel";
 import { AREA, TERMS } from "./terms";
 import { TrendChart } from "./trend_chart";
 
@@ -214,6 +217,7 @@ export function Game({
   const { gamuts, problem } = useGamuts(wanted);
   const chosen = useMemo(() => chosenInGame(at, rounds, gamuts), [at.design, at.model, rounds, gamuts]);
   const visible = [...shown].map((round) => gamuts.get(String(round))).filter((g): g is Gamut => g !== undefined);
+  const brushing = useBrush(rounds, visible, data);
   const unknown = data === null ? [] : [...shown].filter((n) => !rounds.rounds.some((r) => r.round === n));
   if (unknown.length > 0)
     return (
@@ -245,7 +249,19 @@ export function Game({
               chosen={chosen}
               choose={choose}
               theme={theme}
+              picked={brushing.chosen}
+              over={(chart) =>
+                brushing.choice.isOpen && (
+                  <BrushBox
+                    chart={chart}
+                    box={brushing.brush}
+                    isDrawing={brushing.choice.isDrawing}
+                    draw={brushing.draw}
+                  />
+                )
+              }
             />
+            <BrushPanel brushing={brushing} />
           </section>
           <Trends rounds={rounds} theme={theme} isOver={isOver} />
         </div>
@@ -257,6 +273,13 @@ export function Game({
           )}
         </DesignPanel>
       </div>
+      <ShortlistPanel
+        data={data}
+        choose={(design) => {
+          choose({ design, model: newestModel(rounds) });
+          showDesignPanel();
+        }}
+      />
       <section class="panel">
         <WorthOfNext rounds={rounds} />
         <RoundTable rounds={rounds} />

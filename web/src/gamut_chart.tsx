@@ -1,14 +1,16 @@
 // The gamuts of the rounds, their fronts, proposed and measured designs.
 
+import type { ComponentChildren } from "preact";
 import { useMemo } from "preact/hooks";
 import type { Rounds } from "./api";
-import type { Option } from "./chart";
+import type { Chart, Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
 import type { Chosen } from "./chosen";
 import { keyAt, staircase, type Gamut } from "./gamut";
 import { GPA, MPA } from "./numbers";
 import { cloudSeries, PointChart, type Spot } from "./point_chart";
 import { newestModel } from "./rounds";
+import type { Listed } from "./shortlist";
 
 export interface Layers {
   cloud: boolean;
@@ -143,6 +145,24 @@ function seriesOf(rounds: Rounds, gamuts: Gamut[], layers: Layers): Option[] {
   return series;
 }
 
+const MOST_PICKED = 2000;
+
+/** Rings around what is picked, the toughest of many. */
+function pickedSeries(picked: Listed[]): Option[] {
+  if (picked.length === 0) return [];
+  return [
+    {
+      type: "scatter",
+      name: "picked",
+      data: picked.slice(0, MOST_PICKED).map((d) => [(d.modulus_pa ?? NaN) * GPA, (d.toughness_pa ?? NaN) * MPA]),
+      silent: true,
+      symbolSize: 8,
+      itemStyle: { color: "transparent", borderColor: themeColour("good"), borderWidth: 1.5 },
+      z: 8,
+    },
+  ];
+}
+
 export function GamutChart({
   rounds,
   gamuts,
@@ -151,6 +171,8 @@ export function GamutChart({
   chosen,
   choose,
   theme,
+  picked,
+  over,
 }: {
   rounds: Rounds;
   gamuts: Gamut[];
@@ -160,13 +182,19 @@ export function GamutChart({
   chosen: Chosen | null;
   choose: (spot: Spot) => void;
   theme: string;
+  /** Designs that are marked as picked. */
+  picked: Listed[];
+  over: (chart: Chart) => ComponentChildren;
 }) {
   const shown = useMemo(
     () => new Set(gamuts.map((g) => g.round)),
     [gamuts.map((g) => `${g.round}:${g.patterns.length}`).join()],
   );
   const spots = useMemo(() => marks(rounds, layers, shown), [rounds, layers, shown]);
-  const series = useMemo(() => seriesOf(rounds, gamuts, layers), [rounds, shown, layers, theme]);
+  const series = useMemo(
+    () => [...seriesOf(rounds, gamuts, layers), ...pickedSeries(picked)],
+    [rounds, shown, layers, theme, picked],
+  );
   return (
     <PointChart
       name="gamut"
@@ -177,6 +205,7 @@ export function GamutChart({
       spots={spots}
       chosen={chosen}
       choose={choose}
+      over={over}
       table={() => ({
         heading: ["round", "pattern", "modulus_pa", "toughness_pa"],
         rows: gamuts.flatMap((g) =>

@@ -1,7 +1,7 @@
 // The page: at each address a view of a run, kept live, or the list of runs.
 
 import { render, type ComponentChildren } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import { get, ofRun, openRun, Refusal, type ListedRun, type Live, type Rounds, type RunInfo, type Runs } from "./api";
 import { ThemeContext } from "./chart";
 import { DiagnosisView } from "./diagnosis";
@@ -13,6 +13,7 @@ import { NodesView, NodeStrip } from "./nodes";
 import { Awaited, Nowhere, useRepeated, useStored } from "./parts";
 import { useResponse } from "./reading";
 import { addressOf, lookingAt, RUNS, useRoute, VIEWS, type At, type Route, type View } from "./route";
+import { RunContext } from "./run_context";
 import { RunsView } from "./runs";
 import { statusOf } from "./status";
 import { WordsView } from "./words";
@@ -139,6 +140,8 @@ function RunPage({
       setLost(error instanceof Refusal ? error.message : "The dashboard was stopped: start nacre dashboard again.");
     }
   }, LIVE_MS);
+  const playing = live?.playing ?? false;
+  const open = useMemo(() => info && { ...info, playing }, [info, playing]);
   useTitle(titleOfView(view, at), run);
   const eyebrow = several > 1 ? <a href={RUNS}>all {several} runs</a> : "nacre";
   if (!info)
@@ -149,7 +152,6 @@ function RunPage({
       </>
     );
   const { text, kind, link } = statusOf(info, rounds, live, lost);
-  const playing = live?.playing ?? false;
   const isOver = rounds.rounds.some((r) => r.summary?.last);
   const looking = lookingAt(view, at);
   const common = { rounds, data, theme: theme.theme, isOver, looking };
@@ -179,18 +181,20 @@ function RunPage({
         }
       />
       {live && live.nodes.length > 0 && view !== "nodes" && view !== "words" && <NodeStrip live={live} />}
-      <main id="main" tabIndex={-1}>
-        {info.fidelity === "tiny" && (
-          <p class="awaited">Tiny specimens, for trying things out: the numbers on this page mean nothing.</p>
-        )}
-        {view === "game" && <Game {...common} playing={playing} />}
-        {view === "laboratory" && <LaboratoryView {...common} info={info} playing={playing} />}
-        {view === "diagnosis" && <DiagnosisView {...common} isRead={data !== null} isOn={info.diagnosis} />}
-        {view === "families" && <FamiliesView {...common} run={run} />}
-        {view === "explorer" && <Explorer {...common} />}
-        {view === "nodes" && live && <NodesView live={live} />}
-        {view === "words" && <WordsView />}
-      </main>
+      <RunContext.Provider value={open}>
+        <main id="main" tabIndex={-1}>
+          {info.fidelity === "tiny" && (
+            <p class="awaited">Tiny specimens, for trying things out: the numbers on this page mean nothing.</p>
+          )}
+          {view === "game" && <Game {...common} playing={playing} />}
+          {view === "laboratory" && <LaboratoryView {...common} info={info} playing={playing} />}
+          {view === "diagnosis" && <DiagnosisView {...common} isRead={data !== null} isOn={info.diagnosis} />}
+          {view === "families" && <FamiliesView {...common} run={run} />}
+          {view === "explorer" && <Explorer {...common} />}
+          {view === "nodes" && live && <NodesView live={live} />}
+          {view === "words" && <WordsView />}
+        </main>
+      </RunContext.Provider>
       <footer class="quiet">
         {info.scenario}, {info.fidelity} specimens · started {info.started.replace("T", " ").replace("Z", " UTC")} ·
         nacre {info.nacre_version} · <a href={addressOf("words")}>What do the words mean?</a>

@@ -1,5 +1,6 @@
 // A plane of points, modulus against toughness: pointer, touch and keys find them, Enter and click open them.
 
+import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axis, basis, ChartBox, type Chart, type Option } from "./chart";
 import type { Chosen } from "./chosen";
@@ -138,6 +139,7 @@ export function PointChart({
   choose,
   table,
   empty,
+  over,
 }: {
   name: string;
   label: string;
@@ -148,6 +150,8 @@ export function PointChart({
   chosen: Chosen | null;
   choose: (spot: Spot) => void;
   table: () => { heading: string[]; rows: unknown[][] };
+  /** What lies above the points, drawn anew with them. */
+  over?: (chart: Chart) => ComponentChildren;
 }) {
   const { chart, onReady } = useDrawn();
   const overlay = useRef<HTMLDivElement>(null);
@@ -303,6 +307,7 @@ export function PointChart({
           {pointed ? `${pointed.of}: E ${figure(pointed.x)} gigapascal, T ${figure(pointed.y)} megapascal` : ""}
         </span>
       </div>
+      {chart.current && over?.(chart.current)}
     </ChartBox>
   );
 }

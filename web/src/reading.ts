@@ -44,11 +44,12 @@ export function useResponse<T>(path: string, query: Query = {}, run = openedRun(
   return { ...(kept.request === request ? kept : nothing), read };
 }
 
-/** The same, read at once, again whenever `version` changes, and every few seconds while the server refuses. */
-export function useReading<T>(path: string, query: Query, version: unknown): Reading<T> {
+/** The same, read at once, again whenever `version` changes, and every few seconds while the server refuses. Not
+ *  `wanted`: nothing is read. */
+export function useReading<T>(path: string, query: Query, version: unknown, wanted = true): Reading<T> {
   const response = useResponse<T>(path, query);
-  useEffect(() => void response.read(), [address(path, query), version]);
-  useRepeated(response.read, AGAIN_MS, response.problem !== "");
+  useEffect(() => void (wanted && response.read()), [address(path, query), version, wanted]);
+  useRepeated(response.read, AGAIN_MS, wanted && response.problem !== "");
   return response;
 }
 
