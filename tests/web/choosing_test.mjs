@@ -153,3 +153,84 @@ test("a design that one has found is ordered where it is shown", async () => {
   assert.deepEqual(on.troubles, []);
   await leave(on);
 });
+
+/** A PNG of pixels (20 lines of 0 and 1), `size` points each, in two colours. */
+const pictureOf = async (on, lines, size, colours = ["#101010", "#f0f0f0"], spot = null) =>
+  Buffer.from(
+    await on.evaluate(
+      async ({ lines, size, colours, spot }) => {
+        const canvas = new OffscreenCanvas(20 * size, 20 * size);
+        const context = canvas.getContext("2d");
+        lines.forEach((line, row) =>
+          [...line].forEach((letter, column) => {
+            context.fillStyle = colours[letter];
+            context.fillRect(column * size, row * size, size, size);
+          }),
+        );
+        if (spot) (context.fillStyle = spot), context.fillRect(0, 0, 1, 1);
+        const blob = await canvas.convertToBlob({ type: "image/png" });
+        return [...new Uint8Array(await blob.arrayBuffer())];
+      },
+      { lines, size, colours, spot },
+    ),
+  );
+
+test("a pattern is drawn, read from files, checked at once and broken on request", async () => {
+  const on = await visit(`${live.url}#/run/game/editor/design/${PUBLISHED}`);
+  const pixels = on.locator(".pixel-editor");
+  const drawn = () => pixels.getAttribute("data-design");
+  await on.locator("text=/^E [\\d.]+ GPa, rigid share 84/").waitFor();
+  await on.locator("text=Within the design space").waitFor();
+  await pixels.focus();
+  for (const key of ["ArrowRight", "Enter"]) await on.keyboard.press(key);
+  assert.equal(await drawn(), "577fffe9fffdee"); // the corner, bit 0
+  await on.locator(".violations", { hasText: "within 4 pixels of a corner must be rigid" }).waitFor();
+  assert.match(on.url(), /editor\/design\/577fffe9fffdee$/);
+  await on.getByRole("button", { name: "undo" }).click();
+  assert.equal(await drawn(), PUBLISHED);
+  await on.getByRole("button", { name: "exchange materials" }).click();
+  await on.locator(".violations li", { hasText: "fewer than the 50 % required" }).waitFor();
+  const box = await pixels.boundingBox();
+  const at = (row, column) => [box.x + ((column + 0.5) * box.width) / 20, box.y + ((row + 0.5) * box.height) / 20];
+  const before = BigInt(`0x${await drawn()}`);
+  await on.mouse.move(...at(19, 10)); // an image of row 0, column 9: bit 9
+  await on.mouse.down();
+  await on.mouse.move(...at(19, 11)); // bit 8
+  await on.mouse.up();
+  const [nine, eight] = [(before >> 9n) & 1n, 1n - ((before >> 9n) & 1n)];
+  const after = BigInt(`0x${await drawn()}`);
+  assert.equal((after >> 9n) & 1n, 1n - nine);
+  assert.equal((after >> 8n) & 1n, eight);
+  assert.equal(after & ~0x300n, before & ~0x300n);
+
+  const lines = readFileSync(join(ROOT, "data/patterns/published_a.txt"), "utf8").trim().split("\n");
+  const upload = (name, buffer, mimeType = "image/png") =>
+    on.locator('.editor input[type="file"]').setInputFiles({ name, mimeType, buffer });
+  const refused = (why) => on.locator(".notice.bad", { hasText: why }).waitFor();
+  await upload("a.png", await pictureOf(on, lines, 7));
+  await on.locator(".notice.good", { hasText: "a.png is shown" }).waitFor();
+  const key = await drawn();
+  await upload("b.txt", Buffer.from(PUBLISHED), "text/plain");
+  await until(async () => (await drawn()) === PUBLISHED, 10, "a key is taken");
+  await upload("c.txt", Buffer.from(`${lines.join("\r\n")}\r\n\r\n`), "text/plain");
+  await until(async () => (await drawn()) === key, 10, "picture and text are the same pattern");
+  const skewed = [`${lines[0].slice(0, 5)}${lines[0][5] === "1" ? "0" : "1"}${lines[0].slice(6)}`, ...lines.slice(1)];
+  await upload("d.png", await pictureOf(on, skewed, 1));
+  await refused(/d.png: It lacks the eightfold symmetry: row 1, column \d+ is (rigid|soft), its mirror image/);
+  await upload("e.png", await pictureOf(on, lines, 3, ["#000000", "#ffffff"], "#ff0000"));
+  await refused("Pixel row 1, column 1 has several colours");
+  await upload("f.png", await pictureOf(on, lines, 3, ["#777777", "#777777"]));
+  await refused("It has one colour, expected two");
+  await upload("g.txt", Buffer.from("0101\n"), "text/plain");
+  await refused("It has 1 lines, expected 20");
+  await upload("h.png", Buffer.from("no picture"));
+  await refused("neither a picture");
+  assert.equal(await drawn(), key);
+
+  await on.getByRole("button", { name: "Break it" }).click();
+  await on.locator(".film canvas").waitFor({ timeout: 60_000 });
+  await on.getByRole("button", { name: "Have it measured" }).waitFor();
+  await photograph(on, "editor", true);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+});

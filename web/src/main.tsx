@@ -5,6 +5,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { get, ofRun, openRun, Refusal, type ListedRun, type Live, type Rounds, type RunInfo, type Runs } from "./api";
 import { ThemeContext } from "./chart";
 import { DiagnosisView } from "./diagnosis";
+import { EditorView } from "./editor";
 import { Explorer } from "./explorer";
 import { FamiliesView } from "./families";
 import { Game } from "./game";
@@ -191,6 +192,7 @@ function RunPage({
           {view === "diagnosis" && <DiagnosisView {...common} isRead={data !== null} isOn={info.diagnosis} />}
           {view === "families" && <FamiliesView {...common} run={run} />}
           {view === "explorer" && <Explorer {...common} />}
+          {view === "editor" && <EditorView {...common} />}
           {view === "nodes" && live && <NodesView live={live} />}
           {view === "words" && <WordsView />}
         </main>

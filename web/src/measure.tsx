@@ -5,6 +5,7 @@ import { useApprovals } from "./approvals";
 import { useApprover } from "./approver";
 import { sentence } from "./numbers";
 import { Notice, Problem } from "./parts";
+import { addressOf } from "./route";
 import { useOpenRun } from "./run_context";
 import { useShortlist, type Listed } from "./shortlist";
 import { useSubmit } from "./submit";
@@ -70,6 +71,11 @@ export function Measure({ listed, data }: { listed: Listed; data: string | null 
         >
           {isListed ? "off the shortlist" : "onto the shortlist"}
         </button>
+        {/^[0-9a-f]{14}$/.test(design) && (
+          <a class="quiet" href={addressOf("editor", { design })}>
+            edit
+          </a>
+        )}
       </div>
       {isOpen && run.playing && <MeasureForm design={design} data={data} close={() => setOpen(false)} />}
     </div>

@@ -4,7 +4,7 @@ export const SIDE = 20;
 const QUARTER = 10;
 
 /** Bit of the free pixel that pixel (row, column) is an image of. */
-function freeIndex(row: number, column: number): number {
+export function freeIndex(row: number, column: number): number {
   let r = row < QUARTER ? row : SIDE - 1 - row;
   let c = column < QUARTER ? column : SIDE - 1 - column;
   if (r > c) [r, c] = [c, r];
@@ -44,3 +44,22 @@ export function rigidPath(pixels: Uint8Array): string {
 export function keyOfBits(bits: bigint): string {
   return bits.toString(16).padStart(14, "0");
 }
+
+/** The key of the symmetric pattern whose upper left eighth these pixels have. */
+export function keyOfPixels(pixels: Uint8Array): string {
+  let bits = 0n;
+  for (let row = 0; row < QUARTER; ++row)
+    for (let column = row; column < QUARTER; ++column)
+      if (pixels[row * SIDE + column]) bits |= 1n << BigInt(freeIndex(row, column));
+  return keyOfBits(bits);
+}
+
+/** The pattern with a pixel and all its images rigid or soft. */
+export function withPixel(key: string, row: number, column: number, isRigid: boolean): string {
+  const bit = 1n << BigInt(freeIndex(row, column));
+  const bits = BigInt(`0x${key}`);
+  return keyOfBits(isRigid ? bits | bit : bits & ~bit);
+}
+
+/** Rigid and soft exchanged. */
+export const inverted = (key: string) => keyOfBits(BigInt(`0x${key}`) ^ ((1n << 55n) - 1n));

@@ -10,6 +10,7 @@ export const VIEWS = {
   diagnosis: "Diagnosis",
   families: "Families",
   explorer: "Explorer",
+  editor: "Editor",
   nodes: "Nodes",
   words: "Words",
 } as const;
@@ -24,6 +25,7 @@ const KEYS: Record<View, (keyof At)[]> = {
   diagnosis: ["round"],
   families: ["design", "model"],
   explorer: ["map", "design"],
+  editor: ["design"],
   nodes: [],
   words: [],
 };
