@@ -234,3 +234,68 @@ test("a pattern is drawn, read from files, checked at once and broken on request
   assert.deepEqual(on.troubles, []);
   await leave(on);
 });
+
+const UNORDERED = "3ffc9b4ad4d2d9";
+
+test("a specimen is looked at before it is judged, and its story is on one page with photos", async () => {
+  const curve = (factor) => `strain,stress_pa\n0,0\n0.01,${factor}e7\n0.02,${1.8 * factor}e7\n0.03,9e6\n0.035,0\n`;
+  for (const [specimen, factor] of [["story-1", 1], ["story-2", 1.1]]) {
+    const body = { specimen, pattern: UNORDERED, test: "toughness", note: "from grips.csv", curve_csv: curve(factor) };
+    const headers = { "Content-Type": "application/json", "X-Nacre": "1" };
+    const sent = await fetch(`${live.url}runs/game/api/measurement`, { method: "POST", headers, body: JSON.stringify(body) });
+    assert.equal(sent.status, 200, await sent.text());
+  }
+  await until(async () => (await read(`/api/design?design=${UNORDERED}`)).specimens.length === 2, 30, "both are stored");
+  const on = await visit(`${live.url}#laboratory`);
+  const row = on.locator("tr", { hasText: "story-1" });
+  await row.waitFor();
+  await on.getByRole("button", { name: "review story-1" }).click();
+  await on.getByRole("img", { name: "Curve of story-1 among its 1 replicates" }).waitFor();
+  await photograph(on, "review-with-curve");
+  await row.first().locator("input").fill("the grip slipped");
+  await row.first().getByRole("button", { name: "not valid" }).click();
+  await row.first().locator(".chip.rejected", { hasText: "not valid" }).waitFor();
+
+  await on.goto(`${live.url}#/run/game/laboratory/specimen/story-1`);
+  const decisions = on.locator(".table", { hasText: "Decisions" });
+  await decisions.locator("td", { hasText: "the grip slipped" }).waitFor();
+  const measured = on.locator(".table", { hasText: "As it was entered" });
+  assert.match(await measured.innerText(), /from grips\.csv/);
+  assert.match(await measured.locator("tbody tr").innerText(), /none\s+0\.\d+ MPa\s+5/);
+  await on.getByRole("img", { name: /Curve of story-1/ }).waitFor();
+  await on.locator(".notes summary").click();
+  await on.getByLabel("note on specimen story-1").fill("cracked\nin the grip");
+  await on.locator('.notes input[type="file"]').setInputFiles({
+    name: "photo.png",
+    mimeType: "image/png",
+    buffer: await pictureOf(on, Array(20).fill("01".repeat(10)), 150), // 3000 points: made smaller
+  });
+  await on.locator("text=photo.png goes with it").waitFor();
+  await on.getByRole("button", { name: "Keep the note" }).click();
+  const photo = on.locator(".notes img");
+  await photo.waitFor();
+  await until(() => photo.evaluate((img) => img.complete && img.naturalWidth === 2000), 20, "the photo is shown");
+  assert.match(await on.locator(".notes li").innerText(), /cracked\s+in the grip\s+web test, 20\d\d-/);
+  const files = readdirSync(join(game.folder, "notes")).map((file) => file.replace(/^\d{8}T\d{6}Z-|-[0-9a-f]{8}\./g, "|"));
+  assert.deepEqual(files.sort(), ["|specimen-story-1|jpg", "|specimen-story-1|json"]);
+  await on.locator('.notes input[type="file"]').setInputFiles({ name: "x.png", mimeType: "image/png", buffer: Buffer.from("<svg/>") });
+  await on.locator(".notice.bad", { hasText: "x.png is no picture" }).waitFor();
+  await photograph(on, "specimen-story", true);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+});
+
+test("a phone shows the editor, the shortlist and a specimen's story without scrolling sideways", async () => {
+  const phone = await visit(live.url, { width: 375, height: 740, touch: true, dark: true });
+  const views = [`editor/design/${PUBLISHED}`, `game/design/${PUBLISHED}`, "laboratory/specimen/story-1"];
+  for (const [i, view] of views.entries()) {
+    await phone.goto(`${live.url}#/run/game/${view}`);
+    await phone.locator(".panel").first().waitFor();
+    if (view.startsWith("game")) await phone.locator(".brush summary").click();
+    await phone.waitForTimeout(800);
+    assert.ok((await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375, `${view} is wider than the phone`);
+    await photograph(phone, `phone-choosing-${i}`, true);
+  }
+  assert.deepEqual(phone.troubles, []);
+  await leave(phone);
+});

@@ -9,6 +9,7 @@ import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
 import { Measure } from "./measure";
+import { Notes } from "./notes";
 import { duration, gpa, MPA, mpa, percent } from "./numbers";
 import { Awaited, MaterialKey, Name, Problem, Reason, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
@@ -344,6 +345,7 @@ function DesignRead({
             }, since the game kept no film of it.`}
         </p>
       )}
+      <Notes about="design" name={design.design} />
     </>
   );
 }

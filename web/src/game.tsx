@@ -9,6 +9,7 @@ import { roundColour, themeColour } from "./colour";
 import { DesignPanel, FirstFracture, NewestProposals, showDesignPanel } from "./design_panel";
 import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
+import { RoundNotes } from "./notes";
 import { figure, GPA, MPA, percent, withError } from "./numbers";
 import { WorthOfNext } from "./next_round";
 import { NoSuchRound, Problem, Table } from "./parts";
@@ -283,6 +284,7 @@ export function Game({
       <section class="panel">
         <WorthOfNext rounds={rounds} />
         <RoundTable rounds={rounds} />
+        {rounds.rounds.length > 0 && <RoundNotes rounds={rounds.rounds.map((r) => r.round)} />}
       </section>
       <section class="panel">
         <MeasuredTable

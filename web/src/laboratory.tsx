@@ -9,6 +9,7 @@ import { offerOf, Proposals } from "./proposals";
 import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
 import type { Looking } from "./route";
+import { SpecimenPage } from "./specimen_story";
 import { TERMS } from "./terms";
 
 const stateColumns = (waits: boolean) => [
@@ -151,11 +152,31 @@ export function LaboratoryView({
   useRepeated(refresh, playing ? 2000 : problem ? AGAIN_MS : 30_000);
   const laboratory = book.value;
   if (!laboratory) return <Awaited problem={book.problem} what="reading the measurements …" />;
+  const specimens = (shown: Laboratory) => (
+    <Specimens
+      laboratory={shown}
+      by={by}
+      refresh={refresh}
+      playing={playing}
+      isOver={isOver}
+      chosen={at.specimen}
+    />
+  );
+  const chosen = laboratory.specimens.find((s) => s.specimen === at.specimen);
+  if (chosen)
+    return (
+      <>
+        <Problem text={problem} />
+        <SpecimenPage specimen={chosen} laboratory={laboratory}>
+          {specimens({ ...laboratory, specimens: [chosen] })}
+        </SpecimenPage>
+      </>
+    );
   const lastRound = rounds.rounds.find((r) => r.summary?.last)?.round ?? info.rounds;
   return (
     <>
       <Problem text={problem} />
-      {at.specimen && !laboratory.specimens.some((s) => s.specimen === at.specimen) && (
+      {at.specimen && (
         <Problem text={`This run has no specimen “${at.specimen}”${isOver ? "" : " yet"}.`} />
       )}
       {playing && (
@@ -182,14 +203,7 @@ export function LaboratoryView({
       )}
       {playing && <Orders laboratory={laboratory} by={by} refresh={refresh} />}
       <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
-      <Specimens
-        laboratory={laboratory}
-        by={by}
-        refresh={refresh}
-        playing={playing}
-        isOver={isOver}
-        chosen={at.specimen}
-      />
+      {specimens(laboratory)}
       <section class="panel">
         <Table
           name="replicates"

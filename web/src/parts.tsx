@@ -1,5 +1,6 @@
 // Small parts that every view uses.
 
+import { Fragment, type ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { openedRun } from "./api";
 import { MATERIAL } from "./colour";
@@ -96,6 +97,20 @@ export interface Column<Row> extends Sortable<Row> {
 /** So many rows are drawn at once: thousands take a browser seconds. */
 const MOST_ROWS = 500;
 
+/** A row of its own below another one, brought into sight. */
+function Detail({ columns, children }: { columns: number; children: ComponentChildren }) {
+  const row = useRef<HTMLTableRowElement>(null);
+  useEffect(() => row.current?.scrollIntoView({ block: "nearest" }), [!children]);
+  if (!children) return null;
+  return (
+    <tr class="detail" ref={row}>
+      <td class="words" colSpan={columns}>
+        {children}
+      </td>
+    </tr>
+  );
+}
+
 /** A table that can be put in order and searched, with the CSV of what it shows. */
 export function Table<Row>({
   name,
@@ -106,6 +121,7 @@ export function Table<Row>({
   empty,
   rowClass,
   chosen,
+  detail,
 }: {
   name: string;
   caption: string;
@@ -116,6 +132,8 @@ export function Table<Row>({
   rowClass?: (row: Row) => string;
   /** The key of a row that somebody was led to: it stands out and in sight. */
   chosen?: string;
+  /** What is shown below a row; null: nothing. */
+  detail?: (row: Row) => ComponentChildren;
 }) {
   const [isWhole, setWhole] = useState(false);
   const led = useRef<HTMLTableRowElement>(null);
@@ -163,18 +181,20 @@ export function Table<Row>({
             </thead>
             <tbody>
               {drawn.map((row) => (
-                <tr
-                  key={rowKey(row)}
-                  ref={rowKey(row) === chosen ? led : undefined}
-                  class={rowClass?.(row)}
-                  aria-current={rowKey(row) === chosen ? "true" : undefined}
-                >
-                  {shown.map((c) => (
-                    <td key={c.heading} class={c.words ? "words" : ""}>
-                      {c.show!(row)}
-                    </td>
-                  ))}
-                </tr>
+                <Fragment key={rowKey(row)}>
+                  <tr
+                    ref={rowKey(row) === chosen ? led : undefined}
+                    class={rowClass?.(row)}
+                    aria-current={rowKey(row) === chosen ? "true" : undefined}
+                  >
+                    {shown.map((c) => (
+                      <td key={c.heading} class={c.words ? "words" : ""}>
+                        {c.show!(row)}
+                      </td>
+                    ))}
+                  </tr>
+                  <Detail columns={shown.length}>{detail?.(row)}</Detail>
+                </Fragment>
               ))}
             </tbody>
           </table>

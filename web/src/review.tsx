@@ -5,6 +5,7 @@ import type { Laboratory, LaboratorySpecimen } from "./api";
 import { AmendmentForm } from "./amendment_form";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Table, Unit, unusual, type Column, type NoticeText } from "./parts";
+import { ReplicateCurves } from "./replicate_curves";
 import { addressOf } from "./route";
 import { useSubmit } from "./submit";
 import { TERMS } from "./terms";
@@ -151,6 +152,14 @@ export function Specimens({
         empty={isOver ? "Nothing was measured." : "Nothing has been measured yet."}
         chosen={chosen}
         rowClass={(s) => (s.valid ? "" : "invalid")}
+        detail={(s) =>
+          reviewed === s.specimen &&
+          chosen !== s.specimen && ( // whose page has its curve above
+            <div class="replicates">
+              <ReplicateCurves of={s} version={s.valid} />
+            </div>
+          )
+        }
         columns={[
           {
             heading: "specimen",
