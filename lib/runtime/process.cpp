@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 
@@ -26,9 +28,47 @@ Pipe make_pipe() {
   return {ends[0], ends[1]};
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMayLimitMemory = false;
+#elif defined(__has_feature)
+constexpr bool kMayLimitMemory = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+constexpr bool kMayLimitMemory = true;
+#endif
+
+bool limit(int resource, std::uint64_t most) {
+  const rlimit both{most, most};
+  return ::setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
+}
+
+/// Makes the file what the process writes to as `descriptor`; false with errno where that fails.
+bool redirect(int descriptor, const std::filesystem::path& file) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  return opened >= 0 && ::dup2(opened, descriptor) == descriptor;
+}
+
+/// Limits this process; false with errno where that fails. Only async-signal-safe calls.
+bool confine(const ProcessLimits& limits) {
+  constexpr std::uint64_t kFiles = 256;
+  return ::chdir(limits.folder.c_str()) == 0 && redirect(STDOUT_FILENO, limits.output_file) &&
+         redirect(STDERR_FILENO, limits.error_file) && ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         limit(RLIMIT_CORE, 0) && limit(RLIMIT_NOFILE, kFiles) && limit(RLIMIT_FSIZE, limits.file_bytes) &&
+         limit(RLIMIT_CPU, limits.processor_s) && (!kMayLimitMemory || limit(RLIMIT_AS, limits.memory_bytes));
+}
+
+struct Ends {
+  int output, failure;
+};
+
+[[noreturn]] void fail_in_child(int failure) {
+  const int reason = errno;
+  [[maybe_unused]] const ssize_t told = ::write(failure, &reason, sizeof reason);
+  ::_exit(127);
+}
+
 /// Runs in the child between fork and exec: only async-signal-safe calls. The reason of a failure goes through
 /// `failure`.
-[[noreturn]] void become(char* const* command, int output, int failure, pid_t parent) {
+[[noreturn]] void become(char* const* command, Ends ends, const ProcessLimits* limits, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);  // the parent died before the line above
@@ -38,12 +78,11 @@ Pipe make_pipe() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
   const int empty_input = ::open("/dev/null", O_RDONLY);
   ::dup2(empty_input, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  ::dup2(ends.output, STDOUT_FILENO);
+  ::dup2(ends.output, STDERR_FILENO);
+  if (limits != nullptr && !confine(*limits)) fail_in_child(ends.failure);
   ::execvp(command[0], command);
-  const int reason = errno;
-  [[maybe_unused]] const ssize_t told = ::write(failure, &reason, sizeof reason);
-  ::_exit(127);
+  fail_in_child(ends.failure);
 }
 
 ProcessEnd end_from_wait_status(int status) {
@@ -59,7 +98,7 @@ std::string ProcessEnd::in_words() const {
   return name == nullptr ? fmt::format("killed by signal {}", signal) : fmt::format("killed by SIG{}", name);
 }
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::optional<ProcessLimits>& limits) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
@@ -68,7 +107,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   const pid_t parent = ::getpid();
   pid_ = ::fork();
   const int fork_error = errno;
-  if (pid_ == 0) become(arguments.data(), output.write_end, failure.write_end, parent);
+  if (pid_ == 0) become(arguments.data(), {output.write_end, failure.write_end}, limits ? &*limits : nullptr, parent);
   ::close(output.write_end);
   ::close(failure.write_end);
   output_ = output.read_end;
@@ -148,6 +187,22 @@ ProgramOutput ask_program(const std::vector<std::string>& command) try {
   return printed;
 } catch (const InputError&) {
   return {.output = "", .end = {.exit_status = kProgramNotFound, .signal = 0}};
+}
+
+LimitedEnd run_limited(const std::vector<std::string>& command, const ProcessLimits& limits, double patience_s) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kLook_us = 5000;
+  ChildProcess program(command, limits);
+  const auto deadline = Clock::now() + std::chrono::duration<double>(patience_s);
+  LimitedEnd ended;
+  std::optional<ProcessEnd> end;
+  while (!(end = program.poll_end())) {
+    ended.is_late = Clock::now() >= deadline;
+    if (ended.is_late) program.signal_group(SIGKILL);
+    ::usleep(kLook_us);
+  }
+  ended.end = *end;
+  return ended;
 }
 
 std::filesystem::path this_program() { return std::filesystem::read_symlink("/proc/self/exe"); }

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,13 +20,25 @@ struct ProcessEnd {
   std::string in_words() const;  ///< "exit status 2", "killed by SIGSEGV"
 };
 
+/// What a child may use that handles what strangers made. Beyond memory it gets none, beyond a file's size or its time
+/// on the processor it is killed.
+struct ProcessLimits {
+  std::filesystem::path folder;       ///< that it works in
+  std::filesystem::path output_file;  ///< for its standard output
+  std::filesystem::path error_file;   ///< for its standard error
+  std::uint64_t memory_bytes = 0;     ///< of addresses; not limited in builds with sanitizers, which reserve terabytes
+  std::uint64_t file_bytes = 0;       ///< of each file that it writes
+  unsigned processor_s = 0;
+};
+
 /// A running child. Standard input is empty, standard output and standard error come through one pipe. The kernel kills
 /// the child when the thread that started it ends, so that nothing is left behind even when the launcher itself is
 /// killed; start children from a thread that lives as long as they should.
 class ChildProcess {
  public:
   /// Starts `command` (program path first). Throws InputError when the program cannot be started.
-  explicit ChildProcess(const std::vector<std::string>& command);
+  explicit ChildProcess(const std::vector<std::string>& command,
+                        const std::optional<ProcessLimits>& limits = std::nullopt);
   /// Kills the process group, when it still runs, and reaps the child.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -57,6 +70,14 @@ struct ProgramOutput {
   ProcessEnd end;
 };
 ProgramOutput ask_program(const std::vector<std::string>& command);
+
+/// How a limited program ended.
+struct LimitedEnd {
+  ProcessEnd end;
+  bool is_late = false;  ///< it was killed after `patience_s`
+};
+/// Waits for a program within limits, with everything that it started. Throws InputError when it cannot be started.
+LimitedEnd run_limited(const std::vector<std::string>& command, const ProcessLimits& limits, double patience_s);
 
 /// Full path of this program's executable file.
 std::filesystem::path this_program();

@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../instrumented.hpp"
+#include "base/files.hpp"
 #include "base/result.hpp"
+#include "temporary_folder.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -51,6 +54,60 @@ TEST(ChildProcess, ProgramThatDoesNotExistIsAnErrorThatNamesIt) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("/nowhere/program: cannot be started: No such file"));
   }
+}
+
+/// A shell within small limits, in a folder of its own.
+class LimitedProgram : public testing::Test {
+ protected:
+  LimitedEnd run(const std::string& script, double patience_s = 20) {
+    const LimitedEnd end = run_limited({"/bin/sh", "-c", script}, limits_, patience_s);
+    for (const auto& file : {limits_.output_file, limits_.error_file})
+      EXPECT_LE(std::filesystem::file_size(file), limits_.file_bytes);
+    return end;
+  }
+  TemporaryFolder folder_;
+  ProcessLimits limits_{.folder = folder_.path(),
+                        .output_file = folder_.path() / "output",
+                        .error_file = folder_.path() / "errors",
+                        .memory_bytes = 1u << 30,
+                        .file_bytes = 1u << 20,
+                        .processor_s = 20};
+};
+
+TEST_F(LimitedProgram, WorksInItsFolderAndWritesIntoItsFiles) {
+  const LimitedEnd end = run("pwd; echo wrong >&2; exit 3");
+  EXPECT_EQ(read_file(limits_.output_file), folder_.path().string() + "\n");
+  EXPECT_EQ(read_file(limits_.error_file), "wrong\n");
+  EXPECT_EQ(end.end.exit_status, 3);
+  EXPECT_FALSE(end.is_late);
+}
+
+TEST_F(LimitedProgram, WhatTakesTooLongIsKilledWithAllThatItStarted) {
+  const LimitedEnd end = run("sleep 60 & wait", 0.3);
+  EXPECT_TRUE(end.is_late);
+  EXPECT_EQ(end.end.signal, SIGKILL);
+}
+
+TEST_F(LimitedProgram, ABusyOneIsKilledAfterItsTimeOnTheProcessor) {
+  limits_.processor_s = 1;
+  const LimitedEnd end = run("while :; do :; done", 60);
+  EXPECT_NE(end.end.signal, 0);
+  EXPECT_FALSE(end.is_late);
+}
+
+TEST_F(LimitedProgram, WritesNoFileWithoutEnd) {
+  for (const char* script : {"exec yes", "exec yes >&2"}) EXPECT_EQ(run(script).end.signal, SIGXFSZ) << script;
+}
+
+TEST_F(LimitedProgram, MemoryBeyondTheLimitIsNotThere) {
+  if (test::kIsInstrumented) GTEST_SKIP() << "sanitizers reserve more addresses than may be limited";
+  limits_.memory_bytes = 64u << 20;
+  EXPECT_FALSE(run("head -c 300000000 /dev/zero | tail -c 200000000").end.orderly());
+}
+
+TEST_F(LimitedProgram, AFolderThatIsNotThereIsAnError) {
+  limits_.folder = "/nowhere";
+  EXPECT_THROW(run_limited({"/bin/true"}, limits_, 1), InputError);
 }
 
 TEST(ChildProcess, SignalReachesTheWholeGroup) {
