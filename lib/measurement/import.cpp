@@ -119,7 +119,7 @@ tl::expected<AssumedUnits, std::string> settle_units(const TesterRecord& from, c
 
 /// The strain rate: the sheet's, else that of the record, else the planned one.
 void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<double>& time_s,
-              const tester::Curve& curve, ImportedSpecimen& imported, std::vector<std::string>& warnings) {
+              const tester::Curve& curve, ImportedSpecimen& imported) {
   double& rate_per_s = imported.record.conditions.strain_rate_per_s;
   const auto recorded = strain_rate(time_s, curve);
   imported.rate_source = row.rate_is_given        ? "sheet"
@@ -130,21 +130,20 @@ void set_rate(const TesterRecord& from, const SheetRow& row, const std::vector<d
   if (recorded) {
     rate_per_s = rounded(*recorded, 3);
   } else if (!from.time_s.empty()) {
-    warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
-                                   imported.record.specimen, rate_per_s));
+    imported.doubts.push_back(
+        {false, fmt::format("no strain rate can be computed from its times; {} 1/s is assumed", rate_per_s)});
   } else {
     const std::string said = fmt::format("no clock is read; the strain rate {} 1/s is {}", rate_per_s,
                                          row.planned_rate_per_s ? "the planned one" : "assumed");
     imported.decisions.push_back(said);
     if (!row.planned_rate_per_s)
-      warnings.push_back(fmt::format("specimen {}: {}; expected strain_rate_per_s in the sheet, or time_column",
-                                     imported.record.specimen, said));
+      imported.doubts.push_back(
+          {false, fmt::format("{}; expected strain_rate_per_s in the sheet, or time_column", said)});
   }
 }
 
 tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, const TesterRecord& from,
-                                                       const std::string& shown_file, const ImportSettings& settings,
-                                                       std::vector<std::string>& warnings) {
+                                                       const std::string& shown_file, const ImportSettings& settings) {
   const auto fault = [&](std::string column, std::string reason) {
     return tl::unexpected(
         ImportFault{shown_file, from.line.empty() ? 0 : from.line.front(), std::move(column), std::move(reason)});
@@ -164,7 +163,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   const auto units = settle_units(from, row, settings.toe);
   if (!units) return fault("", units.error());
   for (const std::string& said : units->said) {
-    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, said));
+    imported.doubts.push_back({true, said});
     imported.decisions.push_back(said);
   }
   std::vector<double> time_s = units->time_factor == 0.0 ? std::vector<double>{} : from.time_s;
@@ -182,11 +181,10 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   // The area of a modulus test that is unloaded is noise; linear_part() has checked its sign.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
-  for (const std::string& doubt : doubts_of_course(curve.stress_pa))
-    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt));
+  for (const std::string& doubt : doubts_of_course(curve.stress_pa)) imported.doubts.push_back({false, doubt});
   imported.test = *test;
   imported.provenance = provenance_of(from, row);
-  set_rate(from, row, time_s, curve, imported, warnings);
+  set_rate(from, row, time_s, curve, imported);
   set_values(*test, imported.record);
   keep_history(from, *test, imported.record);
   return imported;
@@ -260,59 +258,59 @@ std::string doubt_of_rate(const SpecimenRecord& record, const SheetRow& row) {
       rate, planned.strain_rate_per_s, row.gauge_mm);
 }
 
-/// Doubts about a specimen, as sentences.
-void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vector<std::string>& warnings) {
-  const std::string who = fmt::format("specimen {}", one.record.specimen);
+/// Adds the doubts that its reduction and its row raise.
+void collect_doubts(const SheetRow& row, ImportedSpecimen& one) {
+  const auto doubt = [&](bool is_of_scale, std::string text) {
+    if (!text.empty()) one.doubts.push_back({is_of_scale, std::move(text)});
+  };
   if (!one.test.separated && one.record.test == tester::TestKind::toughness)
-    warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
+    doubt(false, one.record.note + "; kept as not valid");
   constexpr double kStiff = 1.25, kFarOfNotched = 100.0;
-  if (one.test.toe_kept != 0.0) {
-    warnings.push_back(
-        fmt::format("{}: its straight part meets zero stress at {:.2f} % strain; a toe beyond {} % is not compensated: "
-                    "was the specimen slack in its grips, or preloaded?",
-                    who, 100.0 * one.test.toe_kept, 100.0 * kLargestToe));
-  }
-  if (one.test.stiffening > kStiff) {
-    warnings.push_back(
-        fmt::format("{}: its peak stress is {:.1f} times the extrapolation of its straight part: does it "
-                    "stiffen, or was it slack in its grips?",
-                    who, one.test.stiffening));
-  }
-  if (one.test.modulus_error_pa > kSureModulus * one.test.modulus_pa) {
-    warnings.push_back(fmt::format(
-        "{}: initial modulus {:.3g} Pa has a standard error of {:.1f} %: is the force noisy, or the curve bent?", who,
-        one.test.modulus_pa, 100.0 * one.test.modulus_error_pa / one.test.modulus_pa));
-  }
-  if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
+  if (one.test.toe_kept != 0.0)
+    doubt(false,
+          fmt::format("its straight part meets zero stress at {:.2f} % strain; a toe beyond {} % is not compensated: "
+                      "was the specimen slack in its grips, or preloaded?",
+                      100.0 * one.test.toe_kept, 100.0 * kLargestToe));
+  if (one.test.stiffening > kStiff)
+    doubt(false, fmt::format("its peak stress is {:.1f} times the extrapolation of its straight part: does it "
+                             "stiffen, or was it slack in its grips?",
+                             one.test.stiffening));
+  if (one.test.modulus_error_pa > kSureModulus * one.test.modulus_pa)
+    doubt(false, fmt::format("initial modulus {:.3g} Pa has a standard error of {:.1f} %: is the force noisy, or the "
+                             "curve bent?",
+                             one.test.modulus_pa, 100.0 * one.test.modulus_error_pa / one.test.modulus_pa));
+  doubt(true, doubt_of_size(row));
   if (one.test.failure_strain > kMostUsualStrain)
-    warnings.push_back(fmt::format("{}: failure strain {:.3g} is unusual: are extension and gauge ({} mm) right?", who,
-                                   one.test.failure_strain, row.gauge_mm));
+    doubt(true, fmt::format("failure strain {:.3g} is unusual: are extension and gauge ({} mm) right?",
+                            one.test.failure_strain, row.gauge_mm));
   if (one.test.peak_stress_pa > kUsualPeakPa.most)
-    warnings.push_back(
-        fmt::format("{}: peak stress {:.3g} Pa is unusual: are force and size right?", who, one.test.peak_stress_pa));
-  if (const std::string doubt = doubt_of_rate(one.record, row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
-  if (const std::string doubt = doubt_of_modulus(one.record, one.test.modulus_pa, kFarOfNotched); !doubt.empty())
-    warnings.push_back(who + ": " + doubt);
-  if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
-    warnings.push_back(
-        fmt::format("{}: initial modulus {:.3g} Pa is unusual: are the units of force and the size ({} x {} mm, "
-                    "gauge {} mm) right?",
-                    who, one.test.modulus_pa, row.width_mm, one.record.conditions.thickness_mm, row.gauge_mm));
-  }
+    doubt(true, fmt::format("peak stress {:.3g} Pa is unusual: are force and size right?", one.test.peak_stress_pa));
+  doubt(true, doubt_of_rate(one.record, row));
+  doubt(true, doubt_of_modulus(one.record, one.test.modulus_pa, kFarOfNotched));
+  if (!kUsualModulusPa.hold(one.test.modulus_pa))
+    doubt(true, fmt::format("initial modulus {:.3g} Pa is unusual: are the units of force and the size ({} x {} mm, "
+                            "gauge {} mm) right?",
+                            one.test.modulus_pa, row.width_mm, one.record.conditions.thickness_mm, row.gauge_mm));
+}
+
+/// Adds why the row's specimen cannot be used.
+void reject(const SheetRow& row, ImportFault fault, Import& import) {
+  fault.specimen = row.record.specimen;
+  import.rejected.push_back(std::move(fault));
 }
 
 /// Adds the specimens of a sweep, whose names must not be others' of the sheet.
 void add_sweep(const SheetRow& row, const TesterRecord& from, const SpecimenSheet& sheet, const std::string& sheet_file,
                Import& import, std::vector<SpecimenRecord>& records) {
   auto sweep = import_sweep(row, from, sheet_file, import.warnings);
-  if (!sweep) return import.rejected.push_back(sweep.error());
+  if (!sweep) return reject(row, sweep.error(), import);
   for (const ImportedSpecimen& one : *sweep) {
     const auto has_name = [&](const SheetRow& other) { return other.record.specimen == one.record.specimen; };
     if (std::none_of(sheet.rows.begin(), sheet.rows.end(), has_name)) continue;
-    return import.rejected.push_back(
-        {sheet_file, row.line, "specimen",
-         fmt::format("`{}` would be a row of the sweep {} and is a specimen of the sheet, expected another name",
-                     one.record.specimen, row.record.specimen)});
+    const std::string reason =
+        fmt::format("`{}` would be a row of the sweep {} and is a specimen of the sheet, expected another name",
+                    one.record.specimen, row.record.specimen);
+    return reject(row, {sheet_file, row.line, "specimen", reason}, import);
   }
   for (ImportedSpecimen& one : *sweep) {
     records.push_back(one.record);
@@ -332,17 +330,44 @@ std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRe
                      one.specimen, twin->specimen);
 }
 
+namespace {
+
+/// Adds the doubts that specimens raise beside each other.
+void compare_specimens(const std::vector<SpecimenRecord>& records, Import& import) {
+  for (const UnitDoubt& doubt : doubts_of_units(records)) {
+    import.warnings.push_back(doubt.text);
+    for (ImportedSpecimen& one : import.specimens)
+      if (one.record.specimen == doubt.specimen) one.doubts.push_back({true, doubt.text});
+  }
+}
+
+/// Adds the specimen of a row and the doubts about it; `others` come before it.
+void add_specimen(const SheetRow& row, const TesterRecord& from, ImportedSpecimen one,
+                  std::span<const SpecimenRecord> others, Import& import) {
+  collect_doubts(row, one);
+  for (const ImportDoubt& doubt : one.doubts)
+    import.warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt.text));
+  if (std::string doubt = doubt_of_gauge(from, row); !doubt.empty()) one.doubts.push_back({true, std::move(doubt)});
+  if (std::string doubt = doubt_of_twins(one.record, others); !doubt.empty()) {
+    import.warnings.push_back(doubt);
+    one.doubts.push_back({true, std::move(doubt)});
+  }
+  import.specimens.push_back(std::move(one));
+}
+
+}  // namespace
+
 Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_file, const ImportSettings& settings) {
-  SpecimenSheet sheet = read_specimen_sheet(sheet_file);
+  SpecimenSheet sheet = read_specimen_sheet(sheet_file, settings.confined);
   Import import{.specimens = {}, .rejected = std::move(sheet.rejected), .warnings = std::move(sheet.warnings)};
-  SheetExports exports(files, sheet_file.parent_path());
+  SheetExports exports(files, sheet_file.parent_path(), settings.confined);
   std::set<std::string> warned;
   std::vector<SpecimenRecord> records;
   std::map<std::string, std::vector<std::string>> gauge_doubts;  ///< specimens by doubt
   for (const SheetRow& row : sheet.rows) {
     auto record = exports.record_of(row, sheet_file.string());
     if (!record) {
-      import.rejected.push_back(record.error());
+      reject(row, record.error(), import);
       continue;
     }
     for (const std::string& warning : record->warnings) {
@@ -352,21 +377,18 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
       add_sweep(row, *record, sheet, sheet_file.string(), import, records);
       continue;
     }
-    auto imported = import_one(row, *record, row.file, settings, import.warnings);
+    auto imported = import_one(row, *record, row.file, settings);
     if (!imported) {
-      import.rejected.push_back(imported.error());
+      reject(row, imported.error(), import);
       continue;
     }
-    collect_doubts(*imported, row, import.warnings);
     if (const std::string doubt = doubt_of_gauge(*record, row); !doubt.empty())
       gauge_doubts[doubt].push_back(row.record.specimen);
-    if (const std::string doubt = doubt_of_twins(imported->record, records); !doubt.empty())
-      import.warnings.push_back(doubt);
-    records.push_back(imported->record);
-    import.specimens.push_back(std::move(*imported));
+    add_specimen(row, *record, std::move(*imported), records, import);
+    records.push_back(import.specimens.back().record);
   }
   collect_gauge_doubts(gauge_doubts, import.warnings);
-  for (const UnitDoubt& doubt : doubts_of_units(records)) import.warnings.push_back(doubt.text);
+  compare_specimens(records, import);
   for (const std::string& name : exports.unused())
     import.warnings.push_back(fmt::format("{}: no specimen of the sheet names this export; it is not used", name));
   return import;

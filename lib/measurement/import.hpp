@@ -13,14 +13,21 @@
 
 namespace nacre::measurement {
 
+/// What a person should look at in a specimen.
+struct ImportDoubt {
+  bool is_of_scale = false;  ///< a unit, a size or a gauge may be mistaken: to be settled before the specimen counts
+  std::string text;          ///< a sentence
+};
+
 /// One specimen that could be used.
 struct ImportedSpecimen {
   SpecimenRecord record;
   std::string file;
   int line = 0;  ///< of the sheet
   std::string maker;
-  std::string extension_column;                        ///< its heading; empty where there is none
-  double gauge_mm = 0.0;                               ///< assumed for the extension
+  std::string extension_column;  ///< its heading; empty where there is none
+  double gauge_mm = 0.0;         ///< assumed for the extension
+  std::vector<ImportDoubt> doubts = {};
   std::vector<std::string> decisions = {};             ///< columns taken and not, units, rows left out: sentences
   std::string rate_source = {};                        ///< `sheet`, `record`, `planned`, `default`
   std::map<std::string, std::string> provenance = {};  ///< cells of provenance.csv by column
@@ -37,6 +44,7 @@ struct Import {
 
 struct ImportSettings {
   Toe toe = Toe::compensate;
+  bool confined = false;  ///< a name in the sheet that leads out of the sheet's folder is a fault
 };
 
 /// Reads `sheet` (docs/FORMATS.md, "Specimen sheets") and the exports that it names: among `files` by path or file

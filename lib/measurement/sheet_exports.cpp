@@ -87,6 +87,8 @@ Result<fs::path> SheetExports::find(const std::string& name) {
     std::copy_if(files_.begin(), files_.end(), std::back_inserter(found), same);
     return found;
   };
+  if (files_.empty() && confined_ && fs::path(name).filename() != name)
+    return fail("`{}` leads out of the sheet's folder, expected the name of a file in it", name);
   if (files_.empty()) {
     const fs::path in_folder = folder_ / name;
     std::error_code unreadable;

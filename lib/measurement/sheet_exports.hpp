@@ -17,9 +17,9 @@ namespace nacre::measurement {
 /// The exports, each read once: among `files` by path or file name, or, when there are none, in `folder`.
 class SheetExports {
  public:
-  /// `files` must outlive this.
-  SheetExports(const std::vector<std::filesystem::path>& files, std::filesystem::path folder)
-      : files_(files), folder_(std::move(folder)) {}
+  /// `files` must outlive this. `confined`: in `folder` alone, not where a path leads out of it.
+  SheetExports(const std::vector<std::filesystem::path>& files, std::filesystem::path folder, bool confined = false)
+      : files_(files), folder_(std::move(folder)), confined_(confined) {}
 
   /// The test of a row, which must outlive this, or what is wrong with it: no such file or part, or a part that is
   /// another row's already.
@@ -35,6 +35,7 @@ class SheetExports {
 
   const std::vector<std::filesystem::path>& files_;
   std::filesystem::path folder_;
+  bool confined_;
   std::set<std::string> used_;
   std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
   std::map<std::pair<std::string, std::size_t>, const SheetRow*>

@@ -61,8 +61,8 @@ bool contains(const Names& names, std::string_view name) {
 /// Reads the rows of one sheet.
 class SheetReader {
  public:
-  SheetReader(const std::string& text, std::string file, std::filesystem::path folder)
-      : file_(std::move(file)), folder_(std::move(folder)), text_(text) {}
+  SheetReader(const std::string& text, const std::filesystem::path& file, bool confined)
+      : file_(file.string()), folder_(file.parent_path()), confined_(confined), text_(text) {}
 
   SpecimenSheet read() {
     read_heading();
@@ -151,7 +151,7 @@ class SheetReader {
   }
 
   void reject(std::string_view column, std::string reason) {
-    if (!fault_) fault_ = ImportFault{file_, line_, std::string(column), std::move(reason)};
+    if (!fault_) fault_ = ImportFault{file_, line_, std::string(column), std::move(reason), text("specimen")};
   }
 
   std::optional<double> number(std::string_view column, double least, double most, std::string_view expected) {
@@ -193,9 +193,14 @@ class SheetReader {
              "laminate:x|y:R:S)");
       return {};
     }
+    if (confined_ && std::filesystem::path(name).filename() != name) {
+      reject("pattern",
+             fmt::format("`{}` leads out of the sheet's folder, expected a key, a coupon or a file in it", name));
+      return {};
+    }
     std::error_code unreadable;  // a name may be too long to be a file's
     const std::filesystem::path path =
-        std::filesystem::exists(folder_ / name, unreadable) ? folder_ / name : std::filesystem::path(name);
+        confined_ || std::filesystem::exists(folder_ / name, unreadable) ? folder_ / name : std::filesystem::path(name);
     const std::filesystem::file_status status = std::filesystem::status(path, unreadable);
     if (std::filesystem::exists(status) &&
         !std::filesystem::is_regular_file(status)) {  // a terminal or a pipe would wait for ever
@@ -304,6 +309,7 @@ class SheetReader {
 
   std::string file_;
   std::filesystem::path folder_;
+  bool confined_;
   std::string_view text_;
   std::vector<TextRow> rows_;  ///< the heading first
   char delimiter_ = ',';
@@ -317,10 +323,10 @@ class SheetReader {
 
 }  // namespace
 
-SpecimenSheet read_specimen_sheet(const std::filesystem::path& file) {
+SpecimenSheet read_specimen_sheet(const std::filesystem::path& file, bool confined) {
   const Result<std::string> text = utf8_from_instrument(read_file_up_to(file, kMostTableBytes));
   if (!text) throw InputError::format("{}: {}", file.string(), text.error().message);
-  return SheetReader(*text, file.string(), file.parent_path()).read();
+  return SheetReader(*text, file, confined).read();
 }
 
 }  // namespace nacre::measurement

@@ -40,7 +40,7 @@ struct SpecimenSheet {
 
 /// Reads a sheet: CSV as people's spreadsheets write it (comma, semicolon or tab, decimal point or comma, UTF-8, UTF-16
 /// or Windows-1252). Bad rows are listed, the others kept. Throws InputError when the file cannot be read, a required
-/// column is missing or there is no row.
-SpecimenSheet read_specimen_sheet(const std::filesystem::path& file);
+/// column is missing or there is no row. `confined`: layouts are read from the sheet's own folder alone.
+SpecimenSheet read_specimen_sheet(const std::filesystem::path& file, bool confined = false);
 
 }  // namespace nacre::measurement

@@ -30,6 +30,7 @@ struct ImportOptions {
   std::string preview;
   bool list = false;
   bool replace = false;
+  bool confined = false;
   bool yes = false;
   bool json = false;
 };
@@ -39,13 +40,37 @@ nlohmann::ordered_json of_curve(const measurement::ImportedSpecimen& one, double
   return one.test.curve.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
 
+/// At most 60 points of a curve, its peak and its end among them: enough for a small picture.
+nlohmann::ordered_json to_json(const tester::Curve& curve) {
+  constexpr std::size_t kMost = 58;
+  nlohmann::ordered_json strain = nlohmann::ordered_json::array(), stress_pa = strain;
+  const std::size_t step = (curve.size() + kMost - 1) / kMost;
+  const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) - curve.stress_pa.begin();
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (i % step != 0 && i != static_cast<std::size_t>(peak) && i + 1 != curve.size()) continue;
+    strain.push_back(curve.strain[i]);
+    stress_pa.push_back(curve.stress_pa[i]);
+  }
+  return {{"strain", strain}, {"stress_pa", stress_pa}};
+}
+
+nlohmann::ordered_json to_json(const std::vector<measurement::ImportDoubt>& doubts) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const measurement::ImportDoubt& doubt : doubts)
+    list.push_back({{"of_scale", doubt.is_of_scale}, {"text", doubt.text}});
+  return list;
+}
+
 nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
   const measurement::SpecimenRecord& record = one.record;
   return {{"specimen", record.specimen},
           {"file", one.file},
+          {"line", one.line},
           {"maker", one.maker},
           {"pattern", record.design.name()},
           {"test", std::string(tester::to_string(record.test))},
+          {"orientation_deg", record.conditions.orientation_deg},
+          {"thickness_mm", record.conditions.thickness_mm},
           {"modulus_pa", one.test.modulus_pa},
           {"modulus_error_pa", of_curve(one, one.test.modulus_error_pa)},
           {"toughness_pa", of_curve(one, one.test.toughness_pa)},
@@ -60,12 +85,14 @@ nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
           {"rate_source", one.rate_source},
           {"separated", one.test.separated},
           {"points", one.test.curve.size()},
+          {"curve", to_json(one.test.curve)},
+          {"doubts", to_json(one.doubts)},
           {"valid", record.valid},
           {"note", record.note}};
 }
 
 nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
-  nlohmann::ordered_json document = {{"file", fault.file}};
+  nlohmann::ordered_json document = {{"file", fault.file}, {"specimen", fault.specimen}};
   document.update(row_json(measurement::RejectedRow{fault.line, fault.column, fault.reason}));
   return document;
 }
@@ -196,8 +223,9 @@ int import_exports(const ImportOptions& options) {
     return list_exports(options);
   }
   check(options);
-  const measurement::ImportSettings settings{.toe = options.toe == "keep" ? measurement::Toe::keep
-                                                                          : measurement::Toe::compensate};
+  const measurement::ImportSettings settings{
+      .toe = options.toe == "keep" ? measurement::Toe::keep : measurement::Toe::compensate,
+      .confined = options.confined};
   measurement::Import import = measurement::import_exports(
       std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
   const bool is_shown = !options.preview.empty();
@@ -213,6 +241,7 @@ int import_exports(const ImportOptions& options) {
   if (approved.value_or(false)) measurement::write_import(options.out, options.sheet, import, options.replace);
   told.tell(import);
   if (import.specimens.empty()) {
+    if (options.json) print_import(import, options, "");
     throw InputError::format("{}: none of its specimens is usable; the first: {}", options.sheet,
                              import.rejected.empty() ? "no rows" : to_string(import.rejected.front()));
   }
@@ -241,6 +270,8 @@ void add_import(CLI::App& app, Action& action) {
   command.add_flag("--yes", options->yes, "Keep what --preview shows without asking");
   command.add_flag("--replace", options->replace,
                    "Replace specimens that the set holds with other values; whether they are valid stays");
+  command.add_flag("--confined", options->confined,
+                   "Read nothing outside the sheet's folder, whatever the sheet names: for sheets from strangers");
   command.add_option("--toe", options->toe, "Flat beginning of the curves: compensate (ASTM D638 A1) or keep")
       ->check(CLI::IsMember({"compensate", "keep"}))
       ->capture_default_str();

@@ -101,6 +101,7 @@ TEST(ImportProgram, MakesASetOfWhatIsUsableAndNamesTheRest) {
   EXPECT_EQ(report["specimens"].size(), 2U);
   EXPECT_EQ(report["rejected"].size(), 22U);
   for (const auto& fault : report["rejected"]) EXPECT_THAT(fault["reason"].get<std::string>(), Not(IsEmpty()));
+  EXPECT_EQ(std::ranges::count(report["rejected"], "", [](const auto& fault) { return fault["specimen"]; }), 0);
   EXPECT_EQ(measurement::read_measurement_set(set).specimens.size(), 2U);
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 
+#include "base/files.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "measurement/read_set.hpp"
@@ -289,6 +290,39 @@ TEST_F(ImportedSet, SizesAndValuesThatUnitsExplainAreDoubted) {
   EXPECT_THAT(doubts("52,0.0032,54\n"), HasSubstr("are width_mm and thickness_mm right?"));
   EXPECT_THAT(doubts("0.052,0.0032,54\n"), HasSubstr("peak stress 5.96e+12 Pa is unusual"));
   EXPECT_THAT(doubts("52,3.2,0.054\n"), HasSubstr("failure strain 30.4 is unusual"));
+}
+
+TEST_F(ImportedSet, ADoubtIsTheSpecimensAndSaysWhetherItIsOfScale) {
+  const std::string record = read_file(kExports / "clean/plain.csv");
+  write("a.csv", record);
+  write("b.csv", record.substr(0, record.rfind('\n', record.size() - 2) + 1));  // no twin
+  const Import import = this->import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,0.32,54\nb.csv,B1,rigid,52,3.2,54\n");
+  const auto specimens = by_name(import);
+  const std::vector<ImportDoubt>& doubts = specimens.at("A1").doubts;
+  ASSERT_FALSE(doubts.empty());
+  EXPECT_TRUE(doubts.front().is_of_scale);
+  EXPECT_THAT(doubts.front().text, HasSubstr("are width_mm and thickness_mm right?"));
+  EXPECT_EQ(import.warnings.front(), "specimen A1: " + doubts.front().text);
+  for (const ImportDoubt& doubt : specimens.at("B1").doubts)
+    EXPECT_THAT(doubt.text, HasSubstr("replicates")) << "its own record is sound";
+}
+
+TEST_F(ImportedSet, AConfinedSheetReadsNothingOutsideItsFolder) {
+  const std::string heading = "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n";
+  const fs::path layout = fs::path(NACRE_SOURCE_DIR) / "data/patterns/published_a.txt";
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  fs::copy_file(layout, folder_ / "own.txt");
+  const std::string outside = (kExports / "clean/plain.csv").string();
+  const std::string sheet = heading + "a.csv,A,own.txt,52,3.2,54\na.csv,B," + layout.string() + ",52,3.2,54\n" +
+                            outside + ",C,rigid,52,3.2,54\na.csv,D,../own.txt,52,3.2,54\n";
+  const Import confined = import(sheet, {.confined = true});
+  EXPECT_EQ(by_name(confined).at("A").record.design.name(), "577fffe9fffdef");
+  ASSERT_EQ(confined.rejected.size(), 3U);
+  for (const ImportFault& fault : confined.rejected) {
+    EXPECT_THAT(fault.reason, HasSubstr("leads out of the sheet's folder"));
+    EXPECT_THAT(fault.specimen, testing::AnyOf("B", "C", "D"));
+  }
 }
 
 TEST_F(ImportedSet, ATestIsOneSpecimen) {
