@@ -7,6 +7,7 @@
 #include "dashboard/entries.hpp"
 #include "dashboard/families_view.hpp"
 #include "dashboard/gamut_view.hpp"
+#include "dashboard/imports.hpp"
 #include "dashboard/laboratory_view.hpp"
 #include "dashboard/next_view.hpp"
 #include "dashboard/nodes_view.hpp"
@@ -74,10 +75,11 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
 
 const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
   static const std::map<std::string, Route> routes = {
-      {"/api/measurement", &Dashboard::enter},   {"/api/review", &Dashboard::review},
-      {"/api/approval", &Dashboard::decide},     {"/api/amendment", &Dashboard::amend},
-      {"/api/withdrawal", &Dashboard::withdraw}, {"/api/simulate", &Dashboard::simulate},
-      {"/api/grouping", &Dashboard::group},      {"/api/note", &Dashboard::note}};
+      {"/api/measurement", &Dashboard::enter}, {std::string(kImportPath), &Dashboard::import_files},
+      {"/api/review", &Dashboard::review},     {"/api/approval", &Dashboard::decide},
+      {"/api/amendment", &Dashboard::amend},   {"/api/withdrawal", &Dashboard::withdraw},
+      {"/api/simulate", &Dashboard::simulate}, {"/api/grouping", &Dashboard::group},
+      {"/api/note", &Dashboard::note}};
   return routes;
 }
 
@@ -267,6 +269,15 @@ Response Dashboard::enter(const Request& request) {
   const auto specimen = or_refuse(specimen_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
   return delivery_response(desk_.enter(specimen), desk_.doubts_about(specimen));
+}
+
+Response Dashboard::import_files(const Request& request) {
+  if (settings_.import_reader.command.empty()) throw Refusal{503, "this server has no reader of exports"};
+  const Upload upload = or_refuse(upload_from_parts(request.parts));
+  const ReadUpload read(upload, settings_.import_reader);
+  const std::lock_guard lock(desk_mutex_);
+  if (!upload.enter.empty()) laboratory_fresh_until_us_ = 0;
+  return import_response(upload, read, desk_);
 }
 
 Response Dashboard::review(const Request& request) {

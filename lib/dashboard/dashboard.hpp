@@ -12,6 +12,7 @@
 #include "dashboard/desk.hpp"
 #include "dashboard/films.hpp"
 #include "dashboard/http.hpp"
+#include "dashboard/import_reader.hpp"
 #include "dashboard/maps.hpp"
 #include "dashboard/notes.hpp"
 #include "dashboard/runs_view.hpp"
@@ -26,6 +27,7 @@ struct DashboardSettings {
   std::string run_id, started, nacre_version, commit;
   std::string user;  ///< who enters things, unless the page says otherwise
   game::Scenario scenario;
+  ImportReader import_reader = {};
 };
 
 /// Responds to requests from any number of threads.
@@ -64,6 +66,7 @@ class Dashboard {
   Response families(const Request&);
   Response report(const Request&);
   Response enter(const Request&);
+  Response import_files(const Request&);
   Response review(const Request&);
   Response decide(const Request&);
   Response amend(const Request&);

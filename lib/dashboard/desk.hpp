@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ std::string_view to_string(Delivery delivery);
 struct Answer {
   Delivery delivery = Delivery::accepted;
   std::string refusal = {};  ///< why it is refused and what to do, in sentences
+};
+
+/// What a person should look at in a specimen before it counts.
+struct SpecimenDoubt {
+  std::string specimen;
+  bool is_of_scale = false;  ///< a unit or a size may be mistaken
+  std::string text;          ///< a sentence
 };
 
 /// A person's yes or no to a proposed design. Round -1: a design of the person's own, to be measured as well.
@@ -95,12 +103,16 @@ class Desk {
   virtual std::vector<NodeReport> nodes() = 0;
   /// What a person should check again in a specimen that was entered, as sentences.
   virtual std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) = 0;
+  /// What the run's model, orders and specimens say about new specimens.
+  virtual std::vector<SpecimenDoubt> doubts_of(std::span<const measurement::SpecimenRecord> specimens) = 0;
   /// The search that is under way, or the last one; nothing before its first result.
   virtual std::optional<LiveSearch::Progress> search() = 0;
   /// What that search has simulated so far; empty for the rounds before.
   virtual run::Gamut searched(int round) = 0;
   // Entering: waits some seconds for the validation agent.
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
+  /// The same for several at once; an answer each. Entering them again is safe.
+  virtual std::vector<Answer> enter_all(std::span<const measurement::SpecimenRecord> specimens) = 0;
   virtual Answer review(const SpecimenReview& review) = 0;
   virtual Answer decide(const Approval& approval) = 0;
   virtual Answer amend(const measurement::SpecimenRecord& specimen, const std::string& by, const std::string& why) = 0;
@@ -111,6 +123,8 @@ class Desk {
   virtual std::optional<std::string> against(const SpecimenReview& review) = 0;
   virtual std::optional<std::string> against(const Approval& approval) = 0;
   virtual std::optional<std::string> against(const Withdrawal& withdrawal) = 0;
+  /// Keeps a folder with files, from which specimens were entered, under this name.
+  virtual void keep_import(const std::filesystem::path& folder, const std::string& name) = 0;
   /// Writes families.toml into `folder`: a game's family stage uses it when it begins, `nacre families` whenever it is
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder,

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 
 #include "base/names.hpp"
 #include "base/result.hpp"
+#include "dashboard/upload.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -85,6 +87,13 @@ bool knows_token(const AccessRules& rules, const Request& request) {
          same_secret(cookie(request.header("cookie"), rules.cookie_name), rules.token);
 }
 
+/// A length as announced; the largest number where it is none.
+std::size_t number_from(const std::string& text) {
+  std::size_t number = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return fault == std::errc{} && end == text.data() + text.size() ? number : std::string::npos;
+}
+
 std::optional<Response> refused_post(const Request& request) {
   if (request.header("x-nacre") != "1") return error_response(403, "expected the header X-Nacre: 1");
   const std::string origin = request.header("origin"), site = request.header("sec-fetch-site");
@@ -92,10 +101,16 @@ std::optional<Response> refused_post(const Request& request) {
     return error_response(403, "this request comes from another page");
   if (!site.empty() && site != "same-origin" && site != "none")
     return error_response(403, "this request comes from another page");
-  if (!request.header("content-type").starts_with("application/json") || !request.header("content-encoding").empty())
-    return error_response(415, "expected application/json, not compressed");
-  if (request.header("content-length").empty() || !request.header("transfer-encoding").empty())
+  const bool holds_files = request.path.ends_with(kImportPath);
+  const std::string type = holds_files ? "multipart/form-data" : "application/json";
+  if (!request.header("content-type").starts_with(type) || !request.header("content-encoding").empty())
+    return error_response(415, fmt::format("expected {}, not compressed", type));
+  const std::string length = request.header("content-length");
+  if (length.empty() || !request.header("transfer-encoding").empty())
     return error_response(411, "expected a Content-Length");
+  const std::size_t most = holds_files ? kMostUploadBytes : kMostBodyBytes;
+  if (number_from(length) > most)
+    return error_response(413, fmt::format("too large, expected at most {} MB", most >> 20));
   return std::nullopt;
 }
 

@@ -9,6 +9,8 @@
 
 namespace nacre::dashboard {
 
+inline constexpr std::size_t kMostBodyBytes = 4u << 20;  ///< of JSON; of files kMostUploadBytes (upload.hpp)
+
 struct AccessRules {
   /// The server's names in a Host header, with its port; one without a port passes with any. Any other name belongs to
   /// a foreign page whose name was made to point here (DNS rebinding). `localhost`, `127.0.0.1` and `[::1]` pass with
@@ -33,9 +35,9 @@ std::string random_token();
 /// - with a token: a cookie or `Authorization: Bearer` holds it, else 401. `GET /?token=...` gets the cookie and a
 /// redirection;
 /// - GET, HEAD and POST, else 405;
-/// - a POST is JSON of a stated length, not compressed, and carries `X-Nacre: 1`, which a form or an image of a foreign
-/// page cannot send; where
-///   the browser says where it comes from (Origin, Sec-Fetch-Site), that is this page. Else 403, 411 or 415.
+/// - a POST is JSON, or files at kImportPath, of a stated length, not compressed, and carries `X-Nacre: 1`, which a
+/// form or an image of a foreign page cannot send; where
+///   the browser says where it comes from (Origin, Sec-Fetch-Site), that is this page. Else 403, 411, 413 or 415.
 std::optional<Response> refused(const AccessRules& rules, const Request& request);
 
 }  // namespace nacre::dashboard

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,12 +11,23 @@
 
 namespace nacre::dashboard {
 
+/// Where files are handed in; all other bodies are JSON.
+inline constexpr std::string_view kImportPath = "/api/import";
+
+/// A part of a multipart body.
+struct Part {
+  std::string name;
+  std::string file_name;  ///< empty: it is no file
+  std::string content;
+};
+
 struct Request {
   std::string method;
   std::string path;                            ///< decoded, without query
   std::map<std::string, std::string> query;    ///< decoded; of a name that occurs twice, the first
   std::map<std::string, std::string> headers;  ///< names in lower case; of a name that occurs twice, the first
   std::string body;
+  std::vector<Part> parts = {};  ///< in place of a body
 
   /// The header's value; empty when absent.
   std::string header(const std::string& lower_case_name) const;

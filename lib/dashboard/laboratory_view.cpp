@@ -15,6 +15,7 @@ LaboratoryRow laboratory_row(const Laboratory& laboratory) {
     const game::Withdrawal* withdrawal = facts.withdrawals.of(facts.orders[i].id);
     row.orders.push_back({facts.orders[i], progress[i], withdrawal == nullptr ? game::Withdrawal{} : *withdrawal});
   }
+  for (const game::PrintedSpecimen& printed : facts.printed) row.printed.push_back({printed});
   const std::vector<measurement::SpecimenRecord> specimens = facts.book.specimens();
   for (auto& group : measurement::review_replicates(specimens, game::consistency_settings(facts)))
     row.groups.push_back({std::move(group)});

@@ -7,6 +7,7 @@
 
 #include "dashboard/desk.hpp"
 #include "dashboard/json_parts.hpp"
+#include "fabricate/specimen.hpp"
 
 namespace nacre::dashboard {
 
@@ -63,11 +64,14 @@ struct OrderRow {
 
   static void fields(auto& field, auto& m) {
     const game::Order& order = m.order;
+    const fabricate::SpecimenGeometry nominal = fabricate::geometry_of(fabricate::specimen_kind(order.test));
     field("order", order.id);
     field("round", order.round);
     field("design", order.design);
     field("test", order.test);
     condition_fields(field, order.conditions);
+    field("width_mm", nominal.test_width_mm);
+    field("gauge_mm", nominal.gauge_mm);
     field("loading", order.loading);
     field("batch", order.batch);
     field("replicates", order.replicates);
@@ -78,6 +82,19 @@ struct OrderRow {
     field("withdrawn", !m.withdrawal.by.empty() && m.withdrawal.withdrawn);
     field("by", m.withdrawal.by);
     field("why", m.withdrawal.why);
+  }
+};
+
+struct PrintedRow {
+  static constexpr std::string_view kPageName = "Printed";
+  game::PrintedSpecimen printed;
+
+  static void fields(auto& field, auto& m) {
+    field("label", m.printed.label);
+    field("design", m.printed.design);
+    field("test", m.printed.test);
+    field("orientation_deg", m.printed.orientation_deg);
+    field("order", m.printed.order_id);
   }
 };
 
@@ -127,14 +144,15 @@ struct OpenProposalRow {
   }
 };
 
-/// The newest proposal, what the round costs, designs with their state, orders, specimens, groups of replicates with
-/// proposed outliers.
+/// The newest proposal, what the round costs, designs with their state, orders, what is printed, specimens, groups of
+/// replicates with proposed outliers.
 struct LaboratoryRow {
   static constexpr std::string_view kPageName = "Laboratory";
   std::optional<OpenProposalRow> proposal;
   std::optional<RoundPrice> price;
   std::vector<game::DesignState> designs;
   std::vector<OrderRow> orders;
+  std::vector<PrintedRow> printed;
   std::vector<LaboratorySpecimenRow> specimens;
   std::vector<GroupRow> groups;
 
@@ -143,6 +161,7 @@ struct LaboratoryRow {
     field("price", m.price);
     field("designs", m.designs);
     field("orders", m.orders);
+    field("printed", m.printed);
     field("specimens", m.specimens);
     field("groups", m.groups);
   }

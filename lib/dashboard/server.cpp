@@ -5,20 +5,24 @@
 
 #include <cerrno>
 #include <cstring>
+#include <semaphore>
 #include <thread>
 
 #include <httplib.h>
 
 #include "base/names.hpp"
 #include "base/result.hpp"
+#include "dashboard/upload.hpp"
+#include "runtime/bus.hpp"
 
 namespace nacre::dashboard {
 namespace {
 
-constexpr std::size_t kMostBodyBytes = 4u << 20;
 constexpr std::size_t kThreads = 24;  // a browser keeps six connections a tab, and a connection keeps a thread
 constexpr int kTimeout_s = 5, kIdle_s = 2, kLook_ms = 100;
 constexpr std::size_t kRequestsPerConnection = 1000;
+constexpr int kUploads = 2;  // at a time: each may hold kMostUploadBytes
+constexpr std::int64_t kLongestUpload_us = 120'000'000;
 
 Request request_of(const httplib::Request& from) {
   Request request{.method = from.method, .path = from.path, .query = {}, .headers = {}, .body = from.body};
@@ -45,6 +49,30 @@ void send(const Response& from, httplib::Response& to) {
                   "blob:; connect-src 'self'; font-src "
                   "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   to.set_content(from.body, from.type);
+}
+
+using Uploads = std::counting_semaphore<kUploads>;
+
+/// One upload that was let in.
+struct UploadSlot {
+  Uploads& uploads;
+  ~UploadSlot() { uploads.release(); }
+};
+
+/// The files of a request; nothing where they cannot be read, are too many or come too slowly.
+std::optional<std::vector<Part>> parts_of(const httplib::ContentReader& reader) {
+  const std::int64_t deadline_us = runtime::steady_us() + kLongestUpload_us;
+  std::vector<Part> parts;
+  const bool is_whole = reader(
+      [&](const httplib::MultipartFormData& head) {
+        parts.push_back({head.name, head.filename, ""});
+        return parts.size() <= kMostParts;
+      },
+      [&](const char* bytes, std::size_t count) {
+        if (!parts.empty()) parts.back().content.append(bytes, count);
+        return !parts.empty() && runtime::steady_us() < deadline_us;
+      });
+  return is_whole ? std::optional(std::move(parts)) : std::nullopt;
 }
 
 /// Why nothing can listen there; `reason` is the system's last error.
@@ -75,7 +103,7 @@ void serve(const std::function<Response(const Request&)>& respond, const ServerS
            const std::function<void(int port)>& ready, const std::function<bool()>& stop) {
   httplib::Server server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-  server.set_payload_max_length(kMostBodyBytes);
+  server.set_payload_max_length(kMostUploadBytes);  // of others the guard allows less
   server.set_read_timeout(kTimeout_s);
   server.set_write_timeout(kTimeout_s);
   server.set_keep_alive_timeout(kIdle_s);
@@ -103,10 +131,19 @@ void serve(const std::function<Response(const Request&)>& respond, const ServerS
   // The library's own refusals, such as a body that is too large, get a sentence as well.
   server.set_error_handler([](const httplib::Request&, httplib::Response& to) {
     if (!to.body.empty()) return;
-    const std::string reason = to.status == 413 ? fmt::format("too large, expected at most {} MB", kMostBodyBytes >> 20)
-                                                : "the request cannot be read";
-    send(error_response(to.status, reason), to);
+    send(error_response(to.status, to.status == 413 ? "too large" : "the request cannot be read"), to);
   });
+  Uploads uploads(kUploads);
+  const auto take_files = [&](const httplib::Request& from, httplib::Response& to,
+                              const httplib::ContentReader& reader) {
+    if (!uploads.try_acquire()) return send(error_response(503, "other files are being read: try again soon"), to);
+    const UploadSlot slot{uploads};
+    Request request = request_of(from);
+    auto parts = parts_of(reader);
+    request.parts = parts ? std::move(*parts) : std::vector<Part>{};
+    send(parts ? respond(request) : error_response(400, "the files cannot be read, or are too many"), to);
+  };
+  server.Post(fmt::format(".*{}", kImportPath), take_files);
   server.Get(".*", handle);
   server.Post(".*", handle);
 

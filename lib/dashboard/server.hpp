@@ -20,8 +20,8 @@ struct ServerSettings {
 };
 
 /// Serves what `respond` says, called from any number of threads, until `stop` returns true (called ten times a
-/// second). `ready` gets the port. Bodies have at most 4 MiB, requests slower than five seconds are cut off. Throws
-/// InputError when it cannot listen there.
+/// second). `ready` gets the port. Bodies have at most 4 MiB, files 64 MiB; a request of which nothing comes for five
+/// seconds is cut off. Throws InputError when it cannot listen there.
 void serve(const std::function<Response(const Request&)>& respond, const ServerSettings& settings,
            const std::function<void(int port)>& ready, const std::function<bool()>& stop);
 

@@ -20,6 +20,7 @@
 #include "run_access.hpp"
 #include "run_desk.hpp"
 #include "runtime/interrupts.hpp"
+#include "runtime/process.hpp"
 #include "shipped_files.hpp"
 
 namespace nacre::cli {
@@ -46,7 +47,8 @@ dashboard::DashboardSettings settings_of(const RunAccess& run, const DashboardOp
           .nacre_version = run.manifest.nacre_version,
           .commit = run.manifest.commit,
           .user = user_name(),
-          .scenario = run.scenario};
+          .scenario = run.scenario,
+          .import_reader = {.command = {runtime::this_program().string(), "import"}}};
 }
 
 /// The name of a folder that is no run's: without the way to it, so that an address can hold it.

@@ -1,8 +1,6 @@
 // Part of the command line (command.hpp): nacre inject, measurements from anywhere into a running game.
 
 #include <algorithm>
-#include <chrono>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,14 +12,12 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
-#include "runtime/interrupts.hpp"
+#include "specimen_delivery.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 
 namespace nacre::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct InjectOptions {
   std::string set;
@@ -42,20 +38,6 @@ struct SetDelivery {
   std::vector<std::string> conflicting;  ///< a node has other specimens of these names, which stay
   std::vector<measurement::RejectedRow> rejected;
 };
-
-/// Repeats the offered messages until every node that listens has them all. A diagnosis names the specimens that it
-/// rests on: an analyser that had not got them would wait for ever.
-void wait_for_receivers(runtime::Endpoint& endpoint, const std::vector<std::string>& hashes, double timeout_s) {
-  const runtime::Interrupts interrupts;
-  const auto deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
-  Progress progress("inject: specimens", static_cast<std::int64_t>(hashes.size()));
-  while (endpoint.unacknowledged() > 0 && Clock::now() < deadline && !interrupts.any()) {
-    endpoint.pump(50);
-    progress.set(std::count_if(hashes.begin(), hashes.end(),
-                               [&](const std::string& hash) { return endpoint.waiting_for(hash).empty(); }));
-  }
-}
 
 void print_delivery(const SetDelivery& delivery, bool json) {
   if (!json) {
@@ -82,75 +64,53 @@ measurement::RejectedRow refused(const measurement::SpecimenRecord& specimen, in
   return {line, "", reason};
 }
 
-/// Content hashes of the messages that are under way.
-struct Offered {
-  std::vector<std::string> hashes;
-  struct Specimen {
-    std::string name;
-    HeldReport report;
-    bool is_repeated = false;
-  };
-  std::map<std::string, Specimen> specimens;  ///< by hash
-};
-
 /// Who amends and why; nothing without a reason: then nothing is amended.
 std::optional<game::Amendment> amendment_of(const InjectOptions& options) {
   if (options.reason.empty()) return std::nullopt;
   return game::Amendment{.by = options.by, .why = options.reason};
 }
 
-/// Offers what no node contradicts and every node would take; the rest goes into `delivery`.
-Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, const measurement::MeasurementSet& set,
-                        const InjectOptions& options, runtime::Endpoint& endpoint, SetDelivery& delivery) {
-  Offered offered;
-  for (std::size_t i = 0; i < set.specimens.size(); ++i) {
-    const measurement::SpecimenRecord& specimen = set.specimens[i];
-    const Result<HandIn> handed = hand_in(held, specimen, run.scenario.fidelity, amendment_of(options));
-    if (!handed) {
-      warn(handed.error().message);
+/// Counts what became of one specimen of the set, and warns.
+void count(const SpecimenDelivery& one, const measurement::MeasurementSet& set, std::size_t at,
+           const std::string& folder, SetDelivery& delivery) {
+  const measurement::SpecimenRecord& specimen = set.specimens[at];
+  switch (one.delivery) {
+    case dashboard::Delivery::accepted:
+      ++(one.is_amendment ? delivery.amended : delivery.accepted);
+      break;
+    case dashboard::Delivery::repeated:
+      ++delivery.repeated;
+      break;
+    case dashboard::Delivery::conflicting:
+      warn(one.reason);
       delivery.conflicting.push_back(specimen.specimen);
-      continue;
-    }
-    const auto hash = endpoint.offer(handed->message);
-    if (!hash) {
-      delivery.rejected.push_back(refused(specimen, set.lines[i], hash.error().message));
-      warn_about(delivery.rejected.back(), options.set);
-      continue;
-    }
-    offered.hashes.push_back(*hash);
-    offered.specimens.emplace(*hash, Offered::Specimen{specimen.specimen, handed->report, handed->is_repeated});
+      break;
+    case dashboard::Delivery::refused:
+      delivery.rejected.push_back(refused(specimen, set.lines[at], one.reason));
+      warn_about(delivery.rejected.back(), folder);
+      break;
+    case dashboard::Delivery::unanswered:
+      ++delivery.unanswered;
+      delivery.unanswered_by.insert(one.missing.begin(), one.missing.end());
   }
-  return offered;
 }
 
 /// Sends a set and waits for the answers of those that listen.
-SetDelivery send(const RunAccess& run, const HeldMeasurements& held_before, const measurement::MeasurementSet& set,
+SetDelivery send(const RunAccess& run, const HeldMeasurements& held, const measurement::MeasurementSet& set,
                  const InjectOptions& options) {
-  const auto endpoint = speak(run, "inject");
   SetDelivery delivery;
   delivery.rejected = set.rejected;
-  const auto [hashes, specimens] = offer_specimens(run, held_before, set, options, *endpoint, delivery);
-  if (hashes.empty() && delivery.conflicting.empty())
+  Progress progress("inject: specimens", static_cast<std::int64_t>(set.specimens.size()));
+  const auto all =
+      deliver_specimens(run, held, set.specimens,
+                        {.name = "inject",
+                         .timeout_s = options.timeout_s,
+                         .amend = amendment_of(options),
+                         .arrived = [&](std::size_t arrived) { progress.set(static_cast<std::int64_t>(arrived)); }});
+  const auto is_refused = [](const SpecimenDelivery& one) { return one.delivery == dashboard::Delivery::refused; };
+  for (std::size_t i = 0; i < all.size(); ++i) count(all[i], set, i, options.set, delivery);
+  if (std::ranges::all_of(all, is_refused))
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
-  wait_for_receivers(*endpoint, hashes, options.timeout_s);
-  // Another program may have brought the same names meanwhile: what a node wrote down first stays.
-  const HeldMeasurements held = held_measurements(run);
-  for (const std::string& hash : hashes) {
-    const auto& [name, report, is_repeated] = specimens.at(hash);
-    const auto reason = against_measurement(held, name, report), refusal = endpoint->refusal_of(hash);
-    if (reason || refusal) {
-      warn(reason ? *reason : fmt::format("{}. {}", *refusal, advice_on_refused("MEASUREMENT")));
-      delivery.conflicting.push_back(name);
-      continue;
-    }
-    std::set<std::string> missing = endpoint->waiting_for(hash);
-    const bool amends = report.amendment.revision > 0;
-    ++(!missing.empty() ? delivery.unanswered
-       : is_repeated    ? delivery.repeated
-       : amends         ? delivery.amended
-                        : delivery.accepted);
-    delivery.unanswered_by.merge(missing);
-  }
   std::ranges::stable_sort(delivery.rejected, {}, &measurement::RejectedRow::line);
   return delivery;
 }
@@ -172,7 +132,7 @@ int inject(const InjectOptions& options) {
   HeldMeasurements held{.validation_agent = {}, .analyser = held_by_analyser(run)};
   const LaboratoryView view = view_laboratory(
       run, [&](const std::string& payload) { enter(held.validation_agent, payload, run.scenario.fidelity); });
-  for (const std::string& doubt : doubts_about(run, view, set.specimens)) warn(doubt);
+  for (const auto& doubt : doubts_about(run, view, set.specimens)) warn(doubt.text);
   const SetDelivery delivery = send(run, held, set, options);
   print_delivery(delivery, options.json);
   if (delivery.amended > 0) say_still_invalid(set, view.facts.book);

@@ -12,6 +12,7 @@
 #include "output.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/log_pieces.hpp"
+#include "specimen_delivery.hpp"
 #include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/convert.hpp"
@@ -21,7 +22,7 @@ namespace nacre::cli {
 using dashboard::Answer;
 using dashboard::Delivery;
 
-constexpr double kPatience_s = 8.0;
+constexpr double kPatience_s = 8.0, kPatienceForMany_s = 30.0;
 
 namespace {
 
@@ -88,8 +89,12 @@ Answer RunDesk::hand_in(const runtime::Message& message) {
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
   std::vector<std::string> doubts = measurement::doubts_about(specimen);
-  for (const std::string& doubt : cli::doubts_about(run_, *reader_.view(), {&specimen, 1})) doubts.push_back(doubt);
+  for (const auto& doubt : doubts_of({&specimen, 1})) doubts.push_back(doubt.text);
   return doubts;
+}
+
+std::vector<dashboard::SpecimenDoubt> RunDesk::doubts_of(std::span<const measurement::SpecimenRecord> specimens) {
+  return cli::doubts_about(run_, *reader_.view(), specimens);
 }
 
 Answer RunDesk::enter(const measurement::SpecimenRecord& specimen, const std::optional<game::Amendment>& amend) {
@@ -134,6 +139,31 @@ Answer RunDesk::withdraw(const dashboard::Withdrawal& withdrawal) {
     if (answer.delivery != Delivery::accepted) return answer;
   }
   return {};
+}
+
+std::vector<Answer> RunDesk::enter_all(std::span<const measurement::SpecimenRecord> specimens) {
+  std::vector<Answer> answers(specimens.size(), {Delivery::unanswered});
+  if (specimens.empty() || !is_playing(feed_.nodes())) return answers;
+  const auto delivered = deliver_specimens(now(), held_measurements(run_), specimens,
+                                           {.name = "dashboard", .timeout_s = kPatienceForMany_s});
+  for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = {delivered[i].delivery, delivered[i].reason};
+  return answers;
+}
+
+/// In RUN/laboratory/imports; the same files are kept once.
+void RunDesk::keep_import(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path imports = run_.folder / "laboratory" / "imports";
+  if (std::filesystem::exists(imports / name)) return;
+  make_folder(imports);
+  const std::filesystem::path unfinished = imports / ("." + name);
+  try {
+    std::filesystem::remove_all(unfinished);
+    std::filesystem::copy(folder, unfinished, std::filesystem::copy_options::recursive);
+    std::filesystem::rename(unfinished, imports / name);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw InputError::format("{}: the imported files cannot be kept: {}", (imports / name).string(),
+                             error.code().message());
+  }
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& review) {

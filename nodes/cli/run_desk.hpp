@@ -16,7 +16,10 @@ class RunDesk : public dashboard::Desk {
   std::optional<dashboard::LiveSearch::Progress> search() override { return feed_.search().progress(); }
   run::Gamut searched(int round) override { return feed_.search().gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
+  std::vector<dashboard::SpecimenDoubt> doubts_of(std::span<const measurement::SpecimenRecord> specimens) override;
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
+  std::vector<dashboard::Answer> enter_all(std::span<const measurement::SpecimenRecord> specimens) override;
+  void keep_import(const std::filesystem::path& folder, const std::string& name) override;
   dashboard::Answer review(const dashboard::SpecimenReview& review) override;
   dashboard::Answer decide(const dashboard::Approval& approval) override;
   Result<measurement::SpecimenRecord> amended(const dashboard::Amendment& amendment) override;

@@ -1,5 +1,8 @@
 // Requests of the dashboard: the first line is `METHOD PATH`, further lines up to an empty one `name: value` (a header)
-// or `?name=value` (a parameter), then the body.
+// or `?name=value` (a parameter), then the body. A body at /api/import is parts, `NAME FILE`, a line end and its
+// content up to `%%` each.
+
+#include <set>
 
 #include "../unit/dashboard/fake_desk.hpp"
 #include "dashboard/dashboard.hpp"
@@ -7,6 +10,7 @@
 #include "dashboard/guard.hpp"
 #include "dashboard/maps.hpp"
 #include "dashboard/several_runs.hpp"
+#include "dashboard/upload.hpp"
 #include "families/families_file.hpp"
 #include "fuzz.hpp"
 
@@ -28,6 +32,28 @@ dashboard::Request request_from(std::string_view text) {
   }
   request.body = std::string(text);
   return request;
+}
+
+std::vector<dashboard::Part> parts_from(std::string_view body) {
+  std::vector<dashboard::Part> parts;
+  while (!body.empty()) {
+    std::string_view content = cut(body, "%%");
+    std::string_view head = cut(content, "\n");
+    const std::string name(cut(head, " "));
+    parts.push_back({name, std::string(head), std::string(content)});
+  }
+  return parts;
+}
+
+/// What must hold of files that are written to a folder of this machine.
+void expect_harmless(const dashboard::Upload& upload) {
+  std::set<std::string> names{upload.sheet.name};
+  for (const dashboard::UploadedFile& file : upload.exports) expect(names.insert(file.name).second);
+  expect(!upload.exports.empty() && upload.exports.size() <= dashboard::kMostExports);
+  for (const std::string& name : names) {
+    const std::filesystem::path path = memory_folder() / name;
+    expect(path.lexically_normal() == path && path.parent_path() == memory_folder() && !name.starts_with('.'));
+  }
 }
 
 /// One page for all inputs: what is entered goes nowhere, and no simulation is started.
@@ -61,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       .hosts = dashboard::host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
   static const dashboard::AccessRules closed{
       .hosts = open.hosts, .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
-  const dashboard::Request request = fuzz::request_from(fuzz::text_of(data, size));
+  dashboard::Request request = fuzz::request_from(fuzz::text_of(data, size));
   const auto refusal = dashboard::refused(closed, request);
   // Whoever gets past the closed door knows the token.
   if (!refusal)
@@ -78,6 +104,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(withdrawal->order.empty() != withdrawal->design.empty());
   if (const auto note = dashboard::note_from_json(request.body))
     fuzz::expect(note->photo.empty() ? !note->text.empty() : dashboard::picture_kind(note->photo).has_value());
+  if (request.path.ends_with(dashboard::kImportPath)) request.parts = fuzz::parts_from(request.body);
+  if (const auto upload = dashboard::upload_from_parts(request.parts)) fuzz::expect_harmless(*upload);
   (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
     for (const families::SeedFamily& family : *grouping)

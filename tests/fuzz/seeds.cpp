@@ -142,6 +142,19 @@ void add_requests(const Corpus& corpus) {
       "POST /api/approval\n" + entry + R"({"design":"577fffe9fffdef","round":2,"approved":true,"by":"Ada","why":""})");
 }
 
+/// Parts as fuzz_dashboard.cpp cuts them.
+void add_uploads(const Corpus& corpus) {
+  const std::string head =
+      "POST /api/import\nhost: 127.0.0.1:8765\ncookie: nacre_8765=0123456789abcdef\nx-nacre: 1\n"
+      "content-type: multipart/form-data; boundary=x\ncontent-length: 9\norigin: http://127.0.0.1:8765\n\n";
+  const std::string files =
+      "sheet specimens.csv\nfile,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,a,soft,52,3.2,54"
+      "%%export a.csv\nTime (s),Extension (mm),Force (N)\n0,0,0\n1,0.1,5";
+  corpus.add("dashboard", "import", head + files);
+  corpus.add("dashboard", "import-enter", head + files + "%%choice \n" + R"({"enter":["a"],"confirmed":["a"]})");
+  corpus.add("dashboard", "import-traversal", head + files + "%%export ../b.csv\n0,0");
+}
+
 void add_texts(const Corpus& corpus) {
   corpus.add("measurement_set", "table",
              "specimen,pattern,test,modulus_pa,curve,valid,note\na,577fffe9fffdef,modulus,1e9,,1,\"x, y\"\n"
@@ -177,4 +190,5 @@ int main(int argc, char** argv) {
   nacre::add_batches(corpus);
   nacre::add_texts(corpus);
   nacre::add_requests(corpus);
+  nacre::add_uploads(corpus);
 }

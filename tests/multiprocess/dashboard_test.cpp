@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/files.hpp"
 #include "program_test.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/run_folder.hpp"
@@ -94,6 +96,22 @@ class Page {
                             path, body.size(), body)));
   }
 
+  /// Files as a browser sends them: part, file name, content.
+  nlohmann::json post_files(const std::vector<std::array<std::string, 3>>& parts) const {
+    std::string body;
+    for (const auto& [part, file, content] : parts)
+      body += fmt::format("--files\r\nContent-Disposition: form-data; name=\"{}\"{}\r\n\r\n{}\r\n", part,
+                          file.empty() ? "" : fmt::format("; filename=\"{}\"", file), content);
+    return nlohmann::json::parse(answer_to_files(body + "--files--\r\n"));
+  }
+  /// The same of a body that may be announced longer than it is.
+  std::string answer_to_files(const std::string& body, std::size_t announced = 0) const {
+    return body_of(
+        fmt::format("POST /api/import HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nX-Nacre: 1\r\n"
+                    "Content-Type: multipart/form-data; boundary=files\r\nContent-Length: {}\r\n\r\n{}",
+                    std::max(announced, body.size()), body));
+  }
+
  private:
   static std::vector<std::string> command(std::vector<std::string> runs) {
     runs.insert(runs.begin(), {program("nacre"), "dashboard"});
@@ -150,6 +168,64 @@ TEST(LateRefusals, AreSaidByTheDashboard) {
       "/runs/run/api/measurement", {{"specimen", "a"}, {"pattern", "soft"}, {"test", "modulus"}, {"modulus_pa", 1e6}});
   EXPECT_EQ(measured.at("answer"), "refused") << measured;
   EXPECT_THAT(measured.at("error").get<std::string>(), AllOf(HasSubstr(kReason), HasSubstr("under a new name")));
+}
+
+/// A sheet of one row and the export that it names.
+nlohmann::json import_of(const Page& page, const std::string& row, const std::string& export_text) {
+  const std::string heading = "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm\n";
+  return page.post_files({{"sheet", "specimens.csv", heading + row + "\n"}, {"export", "a.csv", export_text}});
+}
+
+std::string tutorial_export() { return read_file(fs::path(NACRE_SOURCE_DIR) / "data/examples/tester/tutorial-01.csv"); }
+
+TEST(UploadedFiles, AreReadAsByNacreImport) {
+  const Page page({new_run(fresh_folder("uploaded"), "run").path().string()});
+  const nlohmann::json read = import_of(page, "a.csv,a,577fffe9fffdef,toughness,51.95,3.22,54", tutorial_export());
+  ASSERT_EQ(read.value("specimens", nlohmann::json::array()).size(), 1U) << read;
+  const nlohmann::json& specimen = read.at("specimens").at(0);
+  EXPECT_EQ(specimen.at("specimen"), "a");
+  EXPECT_GT(specimen.at("modulus_pa").get<double>(), 1e8);
+  EXPECT_EQ(specimen.at("curve").at("strain").size(), specimen.at("curve").at("stress_pa").size());
+  EXPECT_LE(specimen.at("curve").at("strain").size(), 60U);
+  EXPECT_FALSE(read.contains("answers")) << "nothing was to be entered";
+  const nlohmann::json thin = import_of(page, "a.csv,a,577fffe9fffdef,toughness,51.95,0.322,54", tutorial_export());
+  EXPECT_THAT(thin.at("specimens").at(0).at("doubts").dump(), HasSubstr("are width_mm and thickness_mm right?"));
+}
+
+TEST(UploadedFiles, ReachNoFileOfThisMachine) {
+  const Page page({new_run(fresh_folder("hostile"), "run").path().string()});
+  const std::string layout = (fs::path(NACRE_SOURCE_DIR) / "data/patterns/published_a.txt").string();
+  const auto reason = [&](const std::string& row) {
+    const nlohmann::json read = import_of(page, row, tutorial_export());
+    return read.at("rejected").dump();
+  };
+  EXPECT_THAT(reason(fmt::format("a.csv,a,{},toughness,52,3.2,54", layout)), HasSubstr("out of the sheet's folder"));
+  EXPECT_THAT(reason("../../../etc/passwd,a,rigid,toughness,52,3.2,54"), HasSubstr("is not among the 1 exports"));
+  EXPECT_THAT(page.post_files({{"sheet", "../specimens.csv", "file"}}).at("error").get<std::string>(),
+              HasSubstr("without a path"));
+}
+
+TEST(UploadedFiles, AreLimitedAndLeaveTheServerAsItWas) {
+  const Page page({new_run(fresh_folder("enormous"), "run").path().string()});
+  EXPECT_THAT(page.answer_to_files("--files", 65u << 20), HasSubstr("at most 64 MB"));
+  std::vector<std::array<std::string, 3>> many(600, {"export", "a.csv", ""});
+  EXPECT_THAT(page.post_files(many).at("error").get<std::string>(), HasSubstr("too many"));
+  EXPECT_THAT(page.answer_to_files("--nonsense\r\n\r\n\r\n--files--\r\n"), HasSubstr("error"));
+  EXPECT_THAT(import_of(page, "a.csv,a,rigid,toughness,52,3.2,54", std::string(40u << 20, '1')).dump(),
+              HasSubstr("expected at most 32 MB"));
+  EXPECT_THAT(import_of(page, "a.csv,a,rigid,toughness,52,3.2,54", std::string(20u << 20, '"')).dump(),
+              AllOf(HasSubstr("a.csv"), HasSubstr("expected")));
+  EXPECT_FALSE(page.get("/api/live").at("playing").get<bool>());
+}
+
+TEST(UploadedFiles, EnterARunThatIsPlayedAlone) {
+  const Page page({new_run(fresh_folder("idle"), "run").path().string()});
+  const std::string heading = "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm\n";
+  const nlohmann::json entered =
+      page.post_files({{"sheet", "specimens.csv", heading + "a.csv,a,577fffe9fffdef,toughness,51.95,3.22,54\n"},
+                       {"export", "a.csv", tutorial_export()},
+                       {"choice", "", R"({"enter":["a"],"confirmed":["a"]})"}});
+  EXPECT_EQ(entered.at("answers").at(0).at("answer"), "unanswered") << entered;
 }
 
 TEST(SeveralRuns, AreListedAndThoseThatCannotBeShownSayWhy) {

@@ -279,6 +279,8 @@ export interface Order {
   strain_rate_per_s: number;
   thickness_mm: number;
   standard: boolean;
+  width_mm: number;
+  gauge_mm: number;
   loading: string;
   batch: string;
   replicates: number;
@@ -303,6 +305,14 @@ export interface EarlierReport {
   toughness_pa: number | null;
   by: string;
   why: string;
+}
+
+export interface Printed {
+  label: string;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  order: string;
 }
 
 export interface LaboratorySpecimen {
@@ -355,6 +365,7 @@ export interface Laboratory {
   price: RoundPrice | null;
   designs: DesignState[];
   orders: Order[];
+  printed: Printed[];
   specimens: LaboratorySpecimen[];
   groups: Group[];
 }

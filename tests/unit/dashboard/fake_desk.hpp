@@ -17,6 +17,12 @@ class FakeDesk : public Desk {
   run::Gamut searched(int round) override { return live.gamut(round); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
   Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
+  std::vector<SpecimenDoubt> doubts_of(std::span<const measurement::SpecimenRecord>) override { return run_doubts; }
+  std::vector<Answer> enter_all(std::span<const measurement::SpecimenRecord> several) override {
+    for (const auto& each : several) specimens.push_back(each);
+    return std::vector<Answer>(several.size(), answer);
+  }
+  void keep_import(const std::filesystem::path&, const std::string& name) override { kept.push_back(name); }
   Answer review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
   std::optional<std::string> against(const SpecimenReview&) override { return reason_against; }
   std::optional<std::string> against(const Approval&) override { return reason_against; }
@@ -46,6 +52,8 @@ class FakeDesk : public Desk {
   Answer answer;
   std::optional<std::string> reason_against;
   std::vector<std::string> doubts;
+  std::vector<SpecimenDoubt> run_doubts;
+  std::vector<std::string> kept;
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<SpecimenReview> reviews;
   std::vector<Approval> approvals;

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "dashboard/upload.hpp"
+
 namespace nacre::dashboard {
 namespace {
 
@@ -111,6 +113,28 @@ TEST(Guard, RefusesEntriesThatAnotherPageCouldSend) {
   EXPECT_EQ(status(kOpen, with(writing(), "content-encoding", "gzip")), 415);
   EXPECT_EQ(status(kOpen, with(writing(), "content-length", "")), 411);
   EXPECT_EQ(status(kOpen, with(writing(), "transfer-encoding", "chunked")), 411);
+}
+
+TEST(Guard, LetsFilesInWhereTheyBelong) {
+  Request files = with(writing(), "content-type", "multipart/form-data; boundary=x");
+  EXPECT_EQ(status(kOpen, files), 415);
+  for (const char* path : {"/api/import", "/runs/demo/api/import"}) {
+    files.path = path;
+    EXPECT_EQ(status(kOpen, files), 200) << path;
+    EXPECT_EQ(status(kOpen, with(files, "x-nacre", "")), 403);
+    EXPECT_EQ(status(kOpen, with(files, "content-type", "application/json")), 415);
+  }
+}
+
+TEST(Guard, RefusesBodiesThatAreTooLargeByTheirAnnouncedLength) {
+  EXPECT_EQ(status(kOpen, with(writing(), "content-length", std::to_string(kMostBodyBytes))), 200);
+  for (const std::string length : {std::to_string(kMostBodyBytes + 1), std::string("99999999999999999999"),
+                                   std::string("-1"), std::string("1x")})
+    EXPECT_EQ(status(kOpen, with(writing(), "content-length", length)), 413) << length;
+  Request files = with(writing(), "content-type", "multipart/form-data; boundary=x");
+  files.path = "/api/import";
+  EXPECT_EQ(status(kOpen, with(files, "content-length", std::to_string(kMostUploadBytes))), 200);
+  EXPECT_EQ(status(kOpen, with(files, "content-length", std::to_string(kMostUploadBytes + 1))), 413);
 }
 
 TEST(Guard, RefusesOtherMethodsAndLongPaths) {
