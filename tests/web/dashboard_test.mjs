@@ -1,11 +1,13 @@
 // The dashboard of a game that is played while it is watched, and of the same game once it is over.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { request } from "node:http";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { browser, leave, photograph, savedFrom as download, visit, visitWith } from "./browser.mjs";
+import { laboratoryFiles } from "./exports.mjs";
 import { endAll, openDashboard, playGame, renamed, ROOT, until, withManyPatterns } from "./games.mjs";
 
 const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
@@ -95,7 +97,7 @@ test("a measurement is entered and reviewed", async () => {
   await page.locator('input[name="specimen"]').fill("by-hand-1");
   await page.locator('input[name="pattern"]').fill(PUBLISHED);
   await page
-    .locator('input[type="file"]')
+    .locator('.measurement input[type="file"]')
     .setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
   await page.locator("text=curve.csv, 5 rows").waitFor();
   await photograph(page, "laboratory", true);
@@ -171,6 +173,150 @@ test("what was mistyped is amended, what cannot be made is withdrawn, and the ro
   await its.close();
 });
 
+/** Drops files, each a name and a text, on the page. */
+async function drop(on, files) {
+  const transfer = await on.evaluateHandle((dropped) => {
+    const data = new DataTransfer();
+    for (const { name, text } of dropped) data.items.add(new File([text], name));
+    return data;
+  }, files);
+  await on.locator(".import").dispatchEvent("drop", { dataTransfer: transfer });
+}
+
+const SERIES = "tests/unit/measurement/data/exports/clean/testxpert_series.csv";
+const understood = (on) => on.getByRole("region", { name: "what is understood of the files" });
+
+/** Specimens of the run as the server lists them, by name. */
+const measured = async (url) => {
+  const { specimens } = await (await fetch(`${url}api/laboratory`)).json();
+  return new Map(specimens.map((s) => [s.specimen, s]));
+};
+
+test("32 specimens of three makers are dropped, corrected and handed in with at most twelve clicks", async () => {
+  const own = await playGame(join(ROOT, "tests/web/live.toml"), "import");
+  const dashboard = await openDashboard(own.folder);
+  const on = await visit(dashboard.url);
+  await on.addInitScript(() =>
+    addEventListener("click", (e) => {
+      if (e.isTrusted) sessionStorage.clicks = Number(sessionStorage.clicks ?? 0) + 1;
+    }, true));
+  await on.goto(`${dashboard.url}#laboratory`);
+  await on.reload();
+  await on.locator("input[name=specimen]").fill("typed before the reload"); // the game plays
+  const { specimens, sheet, files } = laboratoryFiles(32);
+  const typed = "m-05.dat,m-05,577fffe9fffdef,toughness,52,3.2,";
+  assert.ok(sheet.text.includes(typed));
+  sheet.text = sheet.text.replace(typed, typed.replace("3.2", "0.32"));
+  files[3].text = files[3].text.replaceAll("(N)", "").replaceAll("(mm)", "");
+  await drop(on, [sheet, ...files]);
+  const rows = understood(on).locator("tbody tr");
+  await until(async () => (await rows.count()) === 32, 40, "all rows of the sheet are shown");
+  const first = await rows.first().innerText();
+  assert.match(first, /m-01[\s\S]*0\.8000[\s\S]*0\.0\d+/, "E is that of the file");
+  assert.equal(await rows.first().locator("polyline").count(), 1);
+  const questions = on.getByRole("list", { name: "questions before specimens count" }).getByRole("listitem");
+  await questions.first().waitFor();
+  await photograph(on, "import", true);
+
+  // The thickness of m-05 was typed in cm: its cell is corrected in place, and stays so after a reload.
+  const cellOf = (column) => understood(on).locator(".cells label", { hasText: new RegExp(`^${column}$`) }).locator("input");
+  await understood(on).getByRole("button", { name: "m-05" }).click();
+  assert.equal(await cellOf("thickness_mm").inputValue(), "0.32");
+  await cellOf("thickness_mm").fill("3.2");
+  await on.reload();
+  await until(async () => (await rows.count()) === 32, 40, "the files are still there after a reload");
+  assert.equal(await on.locator("input[name=specimen]").inputValue(), "typed before the reload");
+  await understood(on).getByRole("button", { name: "m-05" }).click();
+  assert.equal(await cellOf("thickness_mm").inputValue(), "3.2");
+  assert.match(await rows.nth(4).innerText(), /0\.84/);
+
+  // Nothing counts before what is asked is answered.
+  const handIn = on.getByRole("button", { name: /^Hand in \d+ specimens?$/ });
+  assert.equal(await questions.count(), 2, "the units of m-04, the thickness of m-07");
+  assert.equal(await handIn.innerText(), "Hand in 30 specimens");
+  const units = questions.filter({ hasText: /no unit that is read/ });
+  assert.match(await units.innerText(), /m-04\.csv[\s\S]*expected the unit/);
+  await units.getByLabel("what stands there").fill("mm N");
+  await units.getByRole("button", { name: "correct it" }).click();
+  await until(async () => (await questions.count()) === 1, 40, "m-04 is read");
+  await questions.filter({ hasText: /52 x 1.5 mm/ }).getByRole("button", { name: "It is right" }).click();
+  await until(async () => (await handIn.innerText()) === "Hand in 32 specimens", 20, "all are ready");
+  await handIn.click();
+  await on.locator(".import .notice.good", { hasText: "32 specimens are in the run." }).waitFor({ timeout: 60_000 });
+  const clicks = Number(await on.evaluate(() => sessionStorage.clicks));
+  console.log(`32 specimens, ${clicks} clicks`);
+  assert.ok(clicks >= 4 && clicks <= 12, `${clicks} clicks`);
+
+  const held = await measured(dashboard.url);
+  for (const { name, design, peak_pa, modulus_pa } of specimens) {
+    const specimen = held.get(name);
+    assert.equal(specimen?.design, design, name);
+    const triangle_pa = peak_pa ** 2 / modulus_pa; // area under the straight rise and fall
+    assert.ok(Math.abs(specimen.toughness_pa / triangle_pa - 1) < 0.05, `${name}: T ${specimen.toughness_pa}`);
+  }
+  const sets = execFileSync("find", [join(own.folder, "laboratory/imports"), "-name", "provenance.csv"], { encoding: "utf8" });
+  assert.equal(sets.trim().split("\n").length, 1, "the files and where each number came from are kept with the run");
+  await until(async () => (await rows.count()) === 0, 20, "the draft has done its work");
+
+  // The same again changes nothing.
+  sheet.text = laboratoryFiles(32).sheet.text;
+  await drop(on, [sheet, ...laboratoryFiles(32).files]);
+  await questions.first().getByRole("button", { name: "It is right" }).click();
+  await until(async () => (await handIn.innerText()) === "Hand in 32 specimens", 40, "they are read again");
+  await handIn.click();
+  await on.locator(".import .notice.good", { hasText: "32 specimens are in the run." }).waitFor({ timeout: 60_000 });
+  assert.equal((await measured(dashboard.url)).size, held.size);
+  assert.deepEqual(on.troubles, []);
+  await leave(on);
+  await dashboard.close();
+  own.child.kill("SIGINT");
+  await own.ended;
+});
+
+test("files without a sheet get one from the open orders, and what cannot be read says where", async () => {
+  const order = {
+    round: 1, design: PUBLISHED, test: "toughness", orientation_deg: 0, strain_rate_per_s: 6.17e-4, thickness_mm: 3.2,
+    width_mm: 52, gauge_mm: 54, standard: true, loading: "monotonic", batch: "b", replicates: 2, arrived: 0, valid: 0,
+    complete: false, reason: "asked",
+  };
+  const other = await visitWith(`${live.url}#laboratory`, {
+    "/api/laboratory": (work) => ({
+      ...work,
+      orders: [{ ...order, order: "o-1" }, { ...order, order: "o-2", design: "rigid" }],
+      printed: [{ label: "b-07", design: "rigid", test: "toughness", orientation_deg: 0, order: "o-2" }],
+    }),
+  });
+  const { files } = laboratoryFiles(3);
+  const named = ["raw b-07.csv", "first.dat", "broken.csv"].map((name, i) => ({ name, text: files[i].text }));
+  named[2].text = "no table at all\n";
+  const series = { name: "series.csv", text: readFileSync(join(ROOT, SERIES), "latin1") };
+  await drop(other, named);
+  const rows = understood(other).locator("tbody tr");
+  await until(async () => (await rows.count()) === 3, 40, "a row for each file");
+  const textOf = (name) => rows.filter({ hasText: name }).first().innerText();
+  assert.match(await textOf("raw b-07.csv"), /b-07[\s\S]*rigid/, "the label in the file's name tells the specimen");
+  assert.match(await textOf("first.dat"), new RegExp(PUBLISHED));
+  const asked = other.getByRole("list", { name: "questions before specimens count" });
+  await asked.getByText("The page took this order").waitFor();
+  await understood(other).getByRole("button", { name: "broken" }).click();
+  assert.match(await understood(other).locator(".details .fault").innerText(), /broken\.csv.*expected/);
+  await photograph(other, "import-without-sheet", true);
+  await drop(other, [series]);
+  await asked.getByRole("button", { name: "A row for each of the 2 tests" }).click();
+  await until(async () => (await rows.filter({ hasText: "series.csv" }).count()) === 2, 40, "a row for each test");
+  await rows.filter({ hasText: "series-2" }).locator("polyline").waitFor();
+  const phone = await visit(`${live.url}#laboratory`, { width: 375, height: 740, touch: true });
+  await drop(phone, [laboratoryFiles(3).sheet, ...files]);
+  await until(async () => (await understood(phone).locator("polyline").count()) === 3, 40, "read on a phone");
+  await understood(phone).getByRole("button", { name: "m-02" }).click();
+  const table = await understood(phone).evaluate((on) => [on.scrollWidth, on.clientWidth]);
+  assert.ok(table[0] <= table[1], `the table is wider than the phone: ${table}`);
+  assert.ok((await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375);
+  await photograph(phone, "phone-import", true);
+  await leave(phone);
+  await leave(other);
+});
+
 test("every replicate of a turned order is entered as a turned one", async () => {
   const turned = { order: "turned", round: 1, design: PUBLISHED, test: "toughness", orientation_deg: 90 };
   const usual = { strain_rate_per_s: 0.00617, thickness_mm: 6.4, loading: "monotonic", batch: "b", replicates: 3 };
@@ -185,7 +331,7 @@ test("every replicate of a turned order is entered as a turned one", async () =>
     given.push(route.request().postDataJSON());
     return route.fulfill({ json: { answer: "accepted" } });
   });
-  const file = other.locator('input[type="file"]');
+  const file = other.locator('.measurement input[type="file"]');
   await other.locator('select[name="order"]').selectOption("turned");
   await other.locator('input[name="thickness"]').fill("6,4");
   await file.setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });

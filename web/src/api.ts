@@ -57,6 +57,49 @@ export interface Between {
   violation: string | null;
 }
 
+/** What is understood of uploaded files, as `nacre import --json` says it. */
+export interface Understood {
+  specimens: UnderstoodSpecimen[];
+  rejected: ImportFault[];
+  warnings: string[];
+  answers?: { specimen: string; answer: string; error?: string }[];
+}
+
+export interface UnderstoodSpecimen {
+  specimen: string;
+  file: string;
+  line: number;
+  maker: string;
+  pattern: string;
+  test: string;
+  orientation_deg: number;
+  thickness_mm: number;
+  modulus_pa: number;
+  modulus_error_pa: number | null;
+  toughness_pa: number | null;
+  peak_stress_pa: number | null;
+  failure_strain: number | null;
+  toe_strain: number | null;
+  gauge_mm: number;
+  strain_rate_per_s: number;
+  rate_source: string;
+  extension_column: string;
+  columns: Record<string, string>;
+  decisions: string[];
+  curve: { strain: number[]; stress_pa: number[] };
+  doubts: { of_scale: boolean; text: string }[];
+  valid: boolean;
+  note: string;
+}
+
+export interface ImportFault {
+  file: string;
+  specimen: string;
+  line: number;
+  column: string;
+  reason: string;
+}
+
 /** A request that the server refused, with its sentence. */
 export class Refusal extends Error {
   constructor(
@@ -74,7 +117,7 @@ export function problemOf(error: unknown): string {
   return error instanceof TypeError ? "The server does not respond." : "The server's response cannot be read.";
 }
 
-const TOO_LARGE = "This is too large: at most 4 MiB at a time, curve included.";
+const TOO_LARGE = "This is too large: at most 4 MiB at a time, curve included; of files 64 MiB.";
 
 /** The reason in a refusal: a sentence of the server, or its text where that is not JSON. */
 function reasonIn(text: string): string {
@@ -122,4 +165,10 @@ export async function getBytes(path: string, query: Query = {}): Promise<ArrayBu
 export async function post<T>(path: string, body: unknown): Promise<T> {
   const headers = { "Content-Type": "application/json", "X-Nacre": "1" };
   return (await accepted(await fetch(ofRun(path), { method: "POST", headers, body: JSON.stringify(body) }))).json();
+}
+
+/** Files for the reader of exports; `signal` gives it up. */
+export async function postFiles<T>(path: string, files: FormData, signal: AbortSignal): Promise<T> {
+  const headers = { "X-Nacre": "1" };
+  return (await accepted(await fetch(ofRun(path), { method: "POST", headers, body: files, signal }))).json();
 }

@@ -1,6 +1,7 @@
 // The laboratory's work: approve proposals, enter measurements, review specimens.
 
 import type { DesignState, Families, Group, Laboratory, Rounds, RunInfo } from "./api";
+import { ImportFiles } from "./import_files";
 import { MeasurementForm } from "./measurement_form";
 import { gpa, mpa, percent } from "./numbers";
 import { Awaited, DesignChip, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
@@ -202,6 +203,7 @@ export function LaboratoryView({
         />
       )}
       {playing && <Orders laboratory={laboratory} by={by} refresh={refresh} />}
+      <ImportFiles laboratory={laboratory} refresh={refresh} playing={playing} />
       <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
       {specimens(laboratory)}
       <section class="panel">

@@ -323,17 +323,38 @@ export function unusual(test: {
 }
 
 const drafts = new Map<string, unknown>();
+const DRAFT = "nacre.draft.";
 
-/** State of a run that outlives its view, but not the page: what somebody has typed and not submitted. */
+/** What a reload of this tab left of a draft; undefined: nothing. */
+function leftOver(name: string): unknown {
+  try {
+    return JSON.parse(sessionStorage.getItem(DRAFT + name) ?? "") as unknown;
+  } catch {
+    return undefined;
+  }
+}
+
+function keep(name: string, value: unknown): void {
+  drafts.set(name, value);
+  try {
+    sessionStorage.setItem(DRAFT + name, JSON.stringify(value));
+  } catch {
+    // A long curve may not fit: it stays as long as the page does.
+  }
+}
+
+/** State of a run that outlives its view and a reload: what somebody has typed and not submitted. */
 export function useDraft<T>(draft: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
   const name = `${openedRun()}/${draft}`;
-  const [value, setValue] = useState<T>(() => (drafts.has(name) ? (drafts.get(name) as T) : initial));
+  const [value, setValue] = useState<T>(() =>
+    drafts.has(name) ? (drafts.get(name) as T) : ((leftOver(name) as T | undefined) ?? initial),
+  );
   return [
     value,
     (next) =>
       setValue((now) => {
         const chosen = typeof next === "function" ? (next as (now: T) => T)(now) : next;
-        drafts.set(name, chosen);
+        keep(name, chosen);
         return chosen;
       }),
   ];
