@@ -28,12 +28,14 @@ std::vector<double> normals(RandomStream& random) {
   return values;
 }
 
-/// The centre, pairs around it, and every effect of the material on fractures at several sizes.
-std::vector<material::ParameterSet> planned_runs(const Basis& basis, const EmulatorRules& rules, std::uint64_t seed) {
+/// The centre; pairs around it, of the base model, where no search has broken any; every effect of the material on
+/// fractures at several sizes.
+std::vector<material::ParameterSet> planned_runs(const Basis& basis, bool with_pairs, const EmulatorRules& rules,
+                                                 std::uint64_t seed) {
   const material::ParameterSet& centre = basis.centre;
   std::vector<material::ParameterSet> sets = {centre};
   RandomStream random(seed, "diagnosis/runs");
-  for (int k = 0; k < rules.pairs; ++k) {
+  for (int k = 0; k < (with_pairs ? rules.pairs : 0); ++k) {
     const std::vector<double> normal = normals(random);
     for (const double sign : {1.0, -1.0}) {
       sets.push_back(centre);
@@ -88,30 +90,30 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   return acting;
 }
 
-/// The centre of the search for eta: the most probable one where it is searched for.
-material::ParameterSet centre_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
-  material::ParameterSet centre = settings.start;
-  centre.extensions.clear();
-  if (fractures == nullptr || settings.search_budget <= 0) return centre;
+/// The most probable eta where it is searched for, with what was simulated on the way; the given one otherwise.
+FractureSearch search_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
+  if (fractures == nullptr || settings.search_budget <= 0) return {settings.start.toughness, {}};
   const auto searching = [&](double share, std::string_view) {
-    if (settings.progress) settings.progress(0.15 * share, "calibrating the fracture tester");
+    if (settings.progress) settings.progress(0.3 * share, "calibrating the fracture tester");
   };
-  centre.toughness =
-      fractures->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
-  return centre;
+  return fractures->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
 }
 
-std::vector<FractureRun> runs_around(const FractureTests& fractures, const Basis& basis,
+/// Runs of the search, and around what it found.
+std::vector<FractureRun> runs_around(const FractureTests& fractures, std::vector<FractureRun> runs, const Basis& basis,
                                      const DiagnosisSettings& settings) {
-  const std::vector<material::ParameterSet> sets = planned_runs(basis, settings.procedure.emulator, settings.seed);
+  const std::vector<material::ParameterSet> sets =
+      planned_runs(basis, runs.empty(), settings.procedure.emulator, settings.seed);
   const double all = static_cast<double>(sets.size() * fractures.groups().size());
   int count = 0;
-  return fractures.runs_at(sets, {}, [&] {
+  auto further = fractures.runs_at(sets, runs, [&] {
     ++count;
     if (settings.progress)
-      settings.progress(0.15 + 0.4 * std::min(1.0, count / all),
+      settings.progress(0.3 + 0.25 * std::min(1.0, count / all),
                         fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
   });
+  std::ranges::move(further, std::back_inserter(runs));
+  return runs;
 }
 
 /// What the runs teach, and its error as variances of the rows.
@@ -123,8 +125,7 @@ std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Ba
 
 Eigen::VectorXd emulator_variance(const Observations& observations, const FractureSurface& surface) {
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(observations.size());
-  for (std::size_t k = 0; k < surface.rows().size(); ++k)
-    variance[surface.rows()[k].row] = surface.cross_validated_variance()[k];
+  for (std::size_t k = 0; k < surface.rows().size(); ++k) variance[surface.rows()[k].row] = surface.mean_variance()[k];
   return variance;
 }
 
@@ -136,7 +137,7 @@ double error_at(const FractureRun& run, const FractureSurface& surface, const Cu
   for (std::size_t r = 0; r < surface.rows().size(); ++r) {
     const SurfaceRow& row = surface.rows()[r];
     const auto value = value_of(shown_features(run.predictions[row.group], {}, reading), row.feature);
-    const double variance = surface.cross_validated_variance()[r];
+    const double variance = surface.run_variance()[r];
     if (!value || variance <= 0.0) continue;
     squares += std::pow(*value - expected[r], 2) / variance;
     ++count;
@@ -156,11 +157,14 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   if (observations.has(tester::TestKind::toughness))
     fractures =
         std::make_shared<const FractureTests>(observations, settings.fidelity, settings.store, settings.threads);
-  const Basis basis =
-      basis_for(observations, centre_of(fractures.get(), settings), settings.ranges, procedure.constants);
+  FractureSearch search = search_of(fractures.get(), settings);
+  material::ParameterSet centre = settings.start;
+  centre.extensions.clear();
+  centre.toughness = search.best;
+  const Basis basis = basis_for(observations, centre, settings.ranges, procedure.constants);
   Data data{observations, fractures, {}, FeatureModel(observations, basis, settings.fidelity), {}};
   if (fractures) {
-    data.runs = runs_around(*fractures, basis, settings);
+    data.runs = runs_around(*fractures, std::move(search.runs), basis, settings);
     const auto surface = learnt_surface(data, basis, procedure.emulator);
     data.model = data.model.with_surface(surface);
     data.observations.emulator_variance = emulator_variance(data.observations, *surface);

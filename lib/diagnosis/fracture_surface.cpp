@@ -179,10 +179,14 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
       Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
   const Eigen::MatrixXd weights = inverse * centred;
   const std::vector<int> near = half_nearest_to_the_centre();
+  // What the process expects where a run is left out: of that run, and of the mean over specimens there.
+  double of_run = 0.0, of_mean = 0.0;
+  for (const int k : near) of_run += 1.0 / inverse(k, k), of_mean += 1.0 / inverse(k, k) - square(learnt.kernel.noise);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     double sum = 0.0;
     for (const int k : near) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
-    variance_[rows[r]] = square(spread) * sum / static_cast<double>(near.size());
+    run_variance_[rows[r]] = square(spread) * sum / static_cast<double>(near.size());
+    mean_variance_[rows[r]] = run_variance_[rows[r]] * std::max(of_mean, 0.0) / of_run;
   }
   learnt.weights = spread * weights;
   return learnt;
@@ -210,7 +214,7 @@ void FractureSurface::learn() {
   for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
   std::vector<std::vector<int>> kinds;
   for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
-  variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  run_variance_ = mean_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   learnt_.assign(kinds.size(), {});
   parallel_for(kinds.size(), [&](int k) {
     const auto& rows = kinds[k];

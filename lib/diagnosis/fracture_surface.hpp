@@ -36,8 +36,12 @@ class FractureSurface {
   Eigen::VectorXd predict(const material::ParameterSet& set) const;
   /// Change by the machine from one batch to the next, averaged over the groups.
   FeatureValues batch_step(const material::ParameterSet& set) const;
-  /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre.
-  const Eigen::VectorXd& cross_validated_variance() const { return variance_; }
+  /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre. A run is one
+  /// specimen's crack: its own scatter is in it.
+  const Eigen::VectorXd& run_variance() const { return run_variance_; }
+  /// Variance of the expectation over specimens that predict() gives, per row: the posterior one of the process where
+  /// a run is left out, scaled so that run_variance() is what the process expects.
+  const Eigen::VectorXd& mean_variance() const { return mean_variance_; }
 
  private:
   struct SurfacePoint {
@@ -74,7 +78,7 @@ class FractureSurface {
   std::vector<SurfaceRow> rows_;
   std::vector<SurfacePoint> points_;
   std::vector<Learnt> learnt_;
-  Eigen::VectorXd variance_;
+  Eigen::VectorXd run_variance_, mean_variance_;
 };
 
 }  // namespace nacre::diagnosis

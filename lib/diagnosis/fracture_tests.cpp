@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "material/extensions.hpp"
+#include "sysid/calibration.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::diagnosis {
@@ -20,6 +21,14 @@ measurement::Replicates replicates_of(const Observation& group, double log_tough
   measured.toughness_sd_pa = group.replicates > 1 ? measured.toughness_pa * log_toughness_sd : 0.0;
   measured.representative_curve = group.curve;
   return measured;
+}
+
+FractureRun run_of(const material::ParameterSet& parameters, const std::vector<sysid::Prediction>& of_designs,
+                   const std::vector<std::size_t>& of_group) {
+  FractureRun run{parameters, {}};
+  for (const std::size_t design : of_group)
+    run.predictions.push_back(design < of_designs.size() ? of_designs[design] : sysid::Prediction{});
+  return run;
 }
 
 }  // namespace
@@ -80,17 +89,24 @@ std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::Para
   return runs;
 }
 
-material::ToughnessParameters FractureTests::search(const material::ParameterSet& start,
-                                                    const material::ParameterRanges& ranges, int budget,
-                                                    std::uint64_t seed, const sysid::ProgressCallback& progress) const {
-  // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find
-  // the region.
-  std::vector<measurement::Replicates> designs;
-  for (const measurement::Replicates& each : measured_) {
-    const bool known =
-        std::any_of(designs.begin(), designs.end(), [&](const auto& other) { return other.design == each.design; });
-    if (!known && each.toughness_pa > 1.0) designs.push_back(each);
-  }
+// Turned twins and other conditions are the same specimens to the base model: one of each design is simulated. A group
+// without a toughness has none.
+FractureTests::Designs FractureTests::designs() const {
+  constexpr double kLeastPa = 1.0;
+  Designs designs;
+  for (const measurement::Replicates& each : measured_)
+    if (each.toughness_pa > kLeastPa &&
+        std::ranges::find(designs.measured, each.design, &measurement::Replicates::design) == designs.measured.end())
+      designs.measured.push_back(each);
+  for (const measurement::Replicates& each : measured_)
+    designs.of_group.push_back(std::ranges::find(designs.measured, each.design, &measurement::Replicates::design) -
+                               designs.measured.begin());
+  return designs;
+}
+
+FractureSearch FractureTests::search(const material::ParameterSet& start, const material::ParameterRanges& ranges,
+                                     int budget, std::uint64_t seed, const sysid::ProgressCallback& progress) const {
+  const Designs searched = designs();
   sysid::CalibrationSettings settings;
   settings.ranges = ranges;
   settings.start = simulated_side(start);
@@ -98,7 +114,20 @@ material::ToughnessParameters FractureTests::search(const material::ParameterSet
   settings.modulus_budget = 0;
   settings.toughness_budget = budget;
   settings.seed = seed;
-  return sysid::run_calibration(designs, settings, *simulator_, progress).parameters.toughness;
+  sysid::Calibration calibration(searched.measured, settings);
+  FractureSearch result;
+  while (!calibration.finished()) {
+    const std::vector<sysid::WantedEvaluation> wanted = calibration.wanted();
+    const double share = calibration.progress();
+    const auto simulated = simulator_->simulate(searched.measured, wanted, [&] { progress(share, "calibrating"); });
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (wanted[k].toughness && wanted[k].specimens == 1 && wanted[k].items.size() == searched.measured.size())
+        result.runs.push_back(run_of(wanted[k].parameters, simulated[k], searched.of_group));
+      calibration.tell(k, simulated[k]);
+    }
+  }
+  result.best = calibration.result().parameters.toughness;
+  return result;
 }
 
 }  // namespace nacre::diagnosis

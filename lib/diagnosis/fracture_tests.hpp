@@ -27,6 +27,12 @@ struct FractureRun {
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
                              const CurveReading& reading, const measurement::PrintContext& context = {});
 
+/// A search for eta: the most probable one, and what was simulated on the way, a specimen of its own in every run.
+struct FractureSearch {
+  material::ToughnessParameters best;
+  std::vector<FractureRun> runs;
+};
+
 /// The fracture tests of a set, to be simulated at any parameters; each simulation is done once and kept.
 class FractureTests {
  public:
@@ -40,12 +46,18 @@ class FractureTests {
                                    const std::function<void()>& done = {}) const;
   /// Simulations really done.
   int simulations() const { return simulator_->simulations(); }
-  /// The most probable eta in `ranges` for the measured toughness and peaks, by the search of a calibration from
-  /// `start`; its simulations are kept too.
-  material::ToughnessParameters search(const material::ParameterSet& start, const material::ParameterRanges& ranges,
-                                       int budget, std::uint64_t seed, const sysid::ProgressCallback& progress) const;
+  /// A calibration of the base model to the measured toughness and peaks, from `start` in `ranges`.
+  FractureSearch search(const material::ParameterSet& start, const material::ParameterRanges& ranges, int budget,
+                        std::uint64_t seed, const sysid::ProgressCallback& progress) const;
 
  private:
+  /// What a search simulates: one of each design, and which of them stands for each group; none: behind the last.
+  struct Designs {
+    std::vector<measurement::Replicates> measured;
+    std::vector<std::size_t> of_group;
+  };
+  Designs designs() const;
+
   std::vector<int> groups_;
   std::vector<measurement::Replicates> measured_;
   std::unique_ptr<sysid::LocalSimulator> simulator_;

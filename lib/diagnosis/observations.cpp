@@ -290,8 +290,23 @@ CovarianceParts Observations::covariance_parts() const {
   }
   const Eigen::MatrixXd shared = shared_directions();
   parts.fixed += shared * shared.transpose();
-  if (emulator_variance.size() == size()) parts.fixed.diagonal() += emulator_variance;
+  if (emulator_variance.size() == size()) parts.fixed += emulator_covariance();
   return parts;
+}
+
+Eigen::MatrixXd Observations::emulator_covariance() const {
+  Eigen::MatrixXd covariance = emulator_variance.asDiagonal();
+  for (int i = 0; i < size(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const DataRow &a = rows[i], &b = rows[j];
+      if (a.kind != RowKind::mean || b.kind != RowKind::mean || a.group != b.group) continue;
+      const Eigen::MatrixXd& cracks = scatter[a.scatter].covariance;
+      const auto f = static_cast<Eigen::Index>(a.feature), g = static_cast<Eigen::Index>(b.feature);
+      covariance(i, j) = covariance(j, i) = cracks(f, g) / std::sqrt(cracks(f, f) * cracks(g, g)) *
+                                            std::sqrt(emulator_variance[i] * emulator_variance[j]);
+    }
+  }
+  return covariance;
 }
 
 Eigen::VectorXd Observations::own_variances() const {

@@ -132,7 +132,7 @@ struct Observations {
   Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
                                                    ///< standard deviation; may be empty
   Eigen::MatrixXd levels;                          ///< rows x free levels of factors (factors.hpp), the same
-  Eigen::VectorXd emulator_variance;               ///< per row; empty: none
+  Eigen::VectorXd emulator_variance;               ///< per row; empty: none (emulator_covariance())
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
   std::vector<std::string> machines;  ///< their names, sorted
@@ -151,6 +151,8 @@ struct Observations {
   /// Covariance of two rows, but for the shared directions and the emulator. The discretisation error is the same for
   /// all specimens of one layout under one test: rotated twins share it.
   RowCovariance row_covariance(int i, int j) const;
+  /// Of the emulator's error: features of one group go together as they do between specimens, whose cracks it averages.
+  Eigen::MatrixXd emulator_covariance() const;
   /// Covariance of the rows. Along the shared directions all rows go together.
   CovarianceParts covariance_parts() const;
   Eigen::MatrixXd covariance() const {

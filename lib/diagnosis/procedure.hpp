@@ -68,8 +68,8 @@ struct ConstantRules {
 struct EmulatorRules {
   int pairs = 14;                                     ///< opposite runs about the centre
   double spread = 0.3;                                ///< of these, in log units of every constant
-  std::array<double, 3> effect_sizes{0.1, 0.3, 0.6};  ///< at which effects are run, as shares of their range
-  double jitter = 0.05;                               ///< of eta meanwhile, in log units
+  std::array<double, 2> effect_sizes{0.2, 0.5};  ///< at which effects are run, as shares of their range
+  double jitter = 0.15;                               ///< of eta meanwhile, in log units
   double level_sd = 3.0;                              ///< of a feature's level, in its spread over runs
   double curved_length = 1.0;                         ///< of the curved part, in log units of eta
   double effect_length = 0.5;                         ///< of an effect's part, as a share of its range

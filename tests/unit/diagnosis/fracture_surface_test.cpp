@@ -1,6 +1,13 @@
 #include "diagnosis/fracture_surface.hpp"
 
+#include <cmath>
+#include <numeric>
+
 #include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "pattern/random_pattern.hpp"
+#include "sysid/eta.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -25,6 +32,104 @@ TEST(EffectCovariance, OfSizesOfEitherSignIsACovariance) {
     for (Eigen::Index j = 0; j < 6; ++j) matrix(i, j) = effect_covariance(size(sizes[i]), size(sizes[j]), {});
   EXPECT_GT(matrix.diagonal().minCoeff(), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 0.0);
+}
+
+constexpr int kLayouts = 12, kRuns = 40;
+constexpr double kScatter = 0.1;
+
+/// A triangle of this area that separates at 5 % strain.
+tester::Curve curve_of_area(double toughness_pa) {
+  tester::Curve curve;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    curve.strain.push_back(0.05 * share);
+    curve.stress_pa.push_back(2.0 * toughness_pa / 0.05 * share);
+  }
+  curve.strain.push_back(0.0501);
+  curve.stress_pa.push_back(0.0);
+  return curve;
+}
+
+sysid::Prediction broken(double log_toughness) {
+  return {.modulus_pa = {}, .toughness_pa = std::exp(log_toughness), .curve = curve_of_area(std::exp(log_toughness))};
+}
+
+/// Expected log T of a layout: linear in eta, with slopes of its own.
+double expected(int layout, const material::ParameterSet& set) {
+  const material::ToughnessVector eta = to_vector(set.toughness),
+                                  centre = to_vector(material::default_parameters().toughness);
+  double sum = 12.0 + 0.1 * layout;
+  for (const std::size_t k : sysid::kSearchedEta)
+    sum += 0.2 * std::cos(static_cast<double>(layout) + static_cast<double>(k)) * std::log(eta[k] / centre[k]);
+  return sum;
+}
+
+material::ParameterSet moved(RandomStream& random, double spread) {
+  material::ParameterSet set = material::default_parameters();
+  material::ToughnessVector eta = to_vector(set.toughness);
+  for (const std::size_t k : sysid::kSearchedEta) eta[k] *= std::exp(spread * random.normal());
+  set.toughness = material::toughness_from_vector(eta);
+  return set;
+}
+
+/// One notched specimen of every layout, and a run of every layout per parameter set, each crack with chance of its
+/// own.
+struct Broken {
+  Observations observations;
+  std::vector<int> groups;
+  std::vector<FractureRun> runs;
+};
+Broken broken_layouts() {
+  RandomStream drawn(5, "test/patterns"), chance(5, "test/noise");
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const pattern::Pattern& layout : pattern::stratified_patterns(kLayouts, drawn)) {
+    measurement::SpecimenRecord specimen;
+    specimen.design = layout;
+    specimen.specimen = specimen.design.name();
+    specimen.test = tester::TestKind::toughness;
+    specimen.toughness_pa = std::exp(12.0);
+    specimen.curve = curve_of_area(*specimen.toughness_pa);
+    specimens.push_back(specimen);
+  }
+  Broken broken_set{observe(specimens, 0.0, {}, {}), {}, {}};
+  for (int g = 0; g < kLayouts; ++g) broken_set.groups.push_back(g);
+  for (int k = 0; k < kRuns; ++k) {
+    FractureRun run{moved(chance, 0.3), {}};
+    for (int g = 0; g < kLayouts; ++g)
+      run.predictions.push_back(broken(expected(g, run.parameters) + kScatter * chance.normal()));
+    broken_set.runs.push_back(std::move(run));
+  }
+  return broken_set;
+}
+
+// What the emulator promises of its error is that of the expectation, which it averages from many cracks, and not the
+// scatter of a crack.
+TEST(FractureSurface, KnowsTheErrorOfTheMeanOverCracks) {
+  const Broken layouts = broken_layouts();
+  const FractureSurface surface(layouts.observations, layouts.groups, layouts.runs,
+                                material::default_parameters().toughness, {});
+  double of_mean = 0.0, of_run = 0.0, error = 0.0;
+  int count = 0;
+  RandomStream random(6, "test/points");
+  for (std::size_t r = 0; r < surface.rows().size(); ++r) {
+    if (surface.rows()[r].feature != Feature::log_toughness) continue;
+    of_mean += surface.mean_variance()[static_cast<Eigen::Index>(r)] / kLayouts;
+    of_run += surface.run_variance()[static_cast<Eigen::Index>(r)] / kLayouts;
+  }
+  for (int point = 0; point < 10; ++point) {
+    const material::ParameterSet set = moved(random, 0.2);
+    const Eigen::VectorXd predicted = surface.predict(set);
+    for (std::size_t r = 0; r < surface.rows().size(); ++r) {
+      if (surface.rows()[r].feature != Feature::log_toughness) continue;
+      error += std::pow(predicted[static_cast<Eigen::Index>(r)] - expected(surface.rows()[r].group, set), 2);
+      ++count;
+    }
+  }
+  error /= count;
+  ASSERT_EQ(count, 10 * kLayouts);
+  EXPECT_NEAR(std::sqrt(of_run), std::sqrt(kScatter * kScatter + error), 0.03) << "a crack scatters about the mean";
+  EXPECT_LT(of_mean, 0.5 * of_run);
+  EXPECT_GT(of_mean / error, 0.5) << "promised " << of_mean << ", true " << error;
+  EXPECT_LT(of_mean / error, 2.5) << "promised " << of_mean << ", true " << error;
 }
 
 }  // namespace
