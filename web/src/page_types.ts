@@ -293,6 +293,14 @@ export interface Order {
   why: string;
 }
 
+export interface Printed {
+  label: string;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  order: string;
+}
+
 export interface EarlierReport {
   revision: number;
   design: string;
@@ -305,14 +313,6 @@ export interface EarlierReport {
   toughness_pa: number | null;
   by: string;
   why: string;
-}
-
-export interface Printed {
-  label: string;
-  design: string;
-  test: string;
-  orientation_deg: number;
-  order: string;
 }
 
 export interface LaboratorySpecimen {
