@@ -20,6 +20,8 @@
 #include "progress.hpp"
 #include "shipped_files.hpp"
 #include "sysid/offline.hpp"
+#include "tester/specimen_numbers.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -54,7 +56,8 @@ void simulate(const std::string& task, const std::vector<Pattern>& patterns, con
     wanted.emplace_back().design = pattern;
     wanted.back().modulus_count = wanted.back().toughness_count = 1;
   }
-  Progress progress(task, 2 * static_cast<std::int64_t>(wanted.size()));  // both tests
+  const int specimens = tester::specimens_differ(parameters) ? tester::kPredictionSpecimens : 1;
+  Progress progress(task, (1 + specimens) * static_cast<std::int64_t>(wanted.size()));  // and a modulus test
   const auto predictions = sysid::predict({parameters}, wanted, simulator, [&] { progress.advance(); }).front();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (predictions[i].modulus_pa && predictions[i].toughness_pa)
