@@ -34,7 +34,7 @@ struct LaboratorySpecimenRow {
   measurement::SpecimenRecord record;
   game::Review review;        ///< the last one; by nobody: there is none
   game::Amendment amendment;  ///< the last one
-  std::vector<EarlierReportRow> earlier;
+  std::vector<EarlierReportRow> earlier = {};
 
   static void fields(auto& field, auto& m) {
     const measurement::SpecimenRecord& r = m.record;

@@ -174,10 +174,10 @@ std::string strain_fault(double strain);
 /// MEASUREMENT: one specimen, or its amendment; of a name the highest revision counts.
 struct Measurement {
   using Wire = measurement_t;
-  int round = -1;        ///< of the order, -1 when nobody ordered it
-  std::string order_id;  ///< empty when nobody ordered it
-  int revision = 0;      ///< 0: the first report
-  std::string by, why;   ///< of an amendment
+  int round = -1;                 ///< of the order, -1 when nobody ordered it
+  std::string order_id;           ///< empty when nobody ordered it
+  int revision = 0;               ///< 0: the first report
+  std::string by = {}, why = {};  ///< of an amendment
   tester::Fidelity fidelity = tester::Fidelity::full;
   measurement::SpecimenRecord record;
   bool operator==(const Measurement&) const = default;
