@@ -4,6 +4,7 @@
 // docs/studies/discretisation-floor.md.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>
 
@@ -61,41 +62,57 @@ std::vector<study::Wanted> wanted_curves(const FloorPlan& plan) {
 /// One layout with one parameter set on both meshes.
 struct MeshPair {
   double z = 0.0;
-  Eigen::VectorXd change;  ///< feature(h/2) - feature(h)
+  int specimens = 0;
+  Eigen::VectorXd change;   ///< feature(h/2) - feature(h), mean over specimens
+  Eigen::MatrixXd squares;  ///< of the specimens' departures from it
 };
 
-/// The mean of their specimens that have every feature on both meshes; nothing where none has.
+/// Their specimens that have every feature on both meshes; nothing where none has.
 std::optional<MeshPair> finished_pair(const FloorPlan& plan, const study::StudyTable& table, std::size_t layout,
                                       std::size_t set) {
   const auto count = static_cast<Eigen::Index>(compared().size());
-  MeshPair pair{(plan.layouts[layout].rigid_fraction() - kMiddleFraction) / kFractionUnit,
-                Eigen::VectorXd::Zero(count)};
-  int specimens = 0;
+  Eigen::MatrixXd changes(count, 0);
   for (int specimen = 0; specimen < plan.specimens; ++specimen) {
     const auto coarse = table.find(toughness_key(plan, layout, set, 1, specimen)),
                fine = table.find(toughness_key(plan, layout, set, 2, specimen));
     if (!coarse || !fine || std::ranges::max(*coarse) == kMissing || std::ranges::max(*fine) == kMissing) continue;
-    ++specimens;
-    pair.change += Eigen::Map<const Eigen::VectorXd>(fine->data(), count) -
-                   Eigen::Map<const Eigen::VectorXd>(coarse->data(), count);
+    changes.conservativeResize(Eigen::NoChange, changes.cols() + 1);
+    changes.rightCols<1>() = Eigen::Map<const Eigen::VectorXd>(fine->data(), count) -
+                             Eigen::Map<const Eigen::VectorXd>(coarse->data(), count);
   }
-  if (specimens == 0) return std::nullopt;
-  pair.change /= specimens;
-  return pair;
+  if (changes.cols() == 0) return std::nullopt;
+  const Eigen::VectorXd mean = changes.rowwise().mean();
+  const Eigen::MatrixXd departures = changes.colwise() - mean;
+  return MeshPair{(plan.layouts[layout].rigid_fraction() - kMiddleFraction) / kFractionUnit,
+                  static_cast<int>(changes.cols()), mean, departures * departures.transpose()};
 }
 
-/// Covariance of changes: the part that all layouts share and the part linear in rigid fraction (means over parameter
-/// sets), and the residual of a layout.
+/// The covariance nearest to a difference of two (in correlations): variances keep at least a thousandth of `whole`.
+Eigen::MatrixXd as_covariance(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& whole) {
+  constexpr double kLeast = 1e-3;
+  const Eigen::VectorXd scale = whole.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd relative = scale.cwiseInverse().asDiagonal() * difference * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(relative);
+  const Eigen::MatrixXd positive =
+      parts.eigenvectors() * parts.eigenvalues().cwiseMax(kLeast).asDiagonal() * parts.eigenvectors().transpose();
+  return scale.asDiagonal() * positive * scale.asDiagonal();
+}
+
+/// Covariance of changes of expectations: the part that all layouts share and the part linear in rigid fraction (means
+/// over parameter sets), and the residual of a layout, less what the finite number of specimens makes of it: cracks go
+/// other ways on other elements, and a mean over few of them is still chance.
 struct CurveFloor {
   Eigen::MatrixXd shared, rigid, layout;
+  Eigen::VectorXd finite_n_sd;  ///< of a residual, taken off
   int pairs = 0, sets = 0;
 };
 
 CurveFloor curve_floor(const FloorPlan& plan, const study::StudyTable& table) {
   const auto count = static_cast<Eigen::Index>(compared().size());
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(count, count);
-  CurveFloor floor{none, none, none};
-  double freedom = 0.0;
+  CurveFloor floor{none, none, none, Eigen::VectorXd::Zero(count)};
+  Eigen::MatrixXd departures = none;
+  double freedom = 0.0, freedom_of_departures = 0.0, shares = 0.0;
   for (std::size_t s = 0; s < plan.sets.size(); ++s) {
     std::vector<MeshPair> pairs;
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
@@ -112,6 +129,9 @@ CurveFloor curve_floor(const FloorPlan& plan, const study::StudyTable& table) {
     for (const MeshPair& pair : pairs) {
       const Eigen::VectorXd residual = pair.change - middle - pair.z * slope;
       floor.layout += residual * residual.transpose();
+      departures += pair.squares;
+      freedom_of_departures += pair.specimens - 1.0;
+      shares += 1.0 / pair.specimens;
     }
     freedom += n - 2.0;
     floor.pairs += static_cast<int>(pairs.size());
@@ -119,6 +139,10 @@ CurveFloor curve_floor(const FloorPlan& plan, const study::StudyTable& table) {
   }
   if (floor.sets == 0) return floor;
   floor.shared /= floor.sets, floor.rigid /= floor.sets, floor.layout /= freedom;
+  if (freedom_of_departures == 0.0) return floor;
+  const Eigen::MatrixXd finite_n = departures / freedom_of_departures * (shares / floor.pairs);
+  floor.finite_n_sd = finite_n.diagonal().cwiseSqrt();
+  floor.layout = as_covariance(floor.layout - finite_n, floor.layout);
   return floor;
 }
 
@@ -144,10 +168,10 @@ void run(const FloorOptions& options) {
   std::string names;
   for (const std::string& name : columns) names += (names.empty() ? "\"" : ", \"") + name + "\"";
   fmt::print(
-      "[{}.curve]  # {} pairs, {} parameter sets\nfeatures = [{}]\ncovariance_shared = {}\ncovariance_rigid = "
-      "{}\ncovariance_layout = {}\n",
-      options.fidelity, floor.pairs, floor.sets, names, text_of(floor.shared), text_of(floor.rigid),
-      text_of(floor.layout));
+      "[{}.curve]  # {} pairs, {} parameter sets; taken off for their finite numbers of specimens: sd {:.3f}\n"
+      "features = [{}]\ncovariance_shared = {}\ncovariance_rigid = {}\ncovariance_layout = {}\n",
+      options.fidelity, floor.pairs, floor.sets, fmt::join(floor.finite_n_sd, ", "), names, text_of(floor.shared),
+      text_of(floor.rigid), text_of(floor.layout));
 }
 
 }  // namespace
