@@ -400,7 +400,7 @@ TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   const std::vector<std::string> command = {"families", path("set"), "--fidelity", "tiny",          "--samples",
                                             "40",       "--rank",    "5",          "--calibration", "2",
                                             "--cracks", "20",        "--out",      path("found"),   "--json"};
-  const Outcome outcome = run_nacre(command);
+  const Outcome outcome = run_nacre(command, 240.0);  // 70 s of a core
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto document = nlohmann::json::parse(outcome.out);
   std::size_t seeds = 0;
