@@ -1,7 +1,5 @@
 #include "dashboard/import_reader.hpp"
 
-#include <stdlib.h>
-
 #include <fstream>
 #include <sstream>
 
@@ -36,17 +34,6 @@ std::string last_error(const fs::path& file) {
 }
 
 }  // namespace
-
-PrivateFolder::PrivateFolder() {
-  std::string pattern = (fs::temp_directory_path() / "nacre-import-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw InputError::format("{}: cannot be made", pattern);
-  path_ = pattern;
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 ReadUpload::ReadUpload(const Upload& upload, const ImportReader& reader) {
   write_files(upload);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "base/temporary_folder.hpp"
 #include "dashboard/upload.hpp"
 #include "measurement/specimen_record.hpp"
 
@@ -18,19 +19,6 @@ struct ImportReader {
   std::uint64_t file_bytes = 256ull << 20;  ///< of each file that it writes
   unsigned processor_s = 60;
   double patience_s = 90.0;
-};
-
-/// A folder that nobody else can look into, and that goes with this. Throws InputError where there can be none.
-class PrivateFolder {
- public:
-  PrivateFolder();
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// What the reader understood. Throws InputError where the reader cannot be started or the files not be written.
@@ -46,7 +34,7 @@ class ReadUpload {
 
  private:
   void write_files(const Upload& upload) const;
-  PrivateFolder folder_;
+  TemporaryFolder folder_{"import"};
   std::string problem_;  ///< empty where the reader came to its end
 };
 

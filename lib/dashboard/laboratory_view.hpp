@@ -11,6 +11,13 @@
 
 namespace nacre::dashboard {
 
+/// What a specimen gave, among the fields of its row: E or T of its test from the curve where no value was entered.
+void value_fields(auto& field, const measurement::SpecimenRecord& record) {
+  using tester::TestKind;
+  field("modulus_pa", record.test == TestKind::modulus ? measurement::modulus_of(record) : record.modulus_pa);
+  field("toughness_pa", record.test == TestKind::toughness ? measurement::toughness_of(record) : record.toughness_pa);
+}
+
 /// What was reported of a specimen before it was amended.
 struct EarlierReportRow {
   static constexpr std::string_view kPageName = "EarlierReport";
@@ -22,8 +29,7 @@ struct EarlierReportRow {
     field("design", r.design);
     field("test", r.test);
     condition_fields(field, r.conditions);
-    field("modulus_pa", r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa);
-    field("toughness_pa", r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa);
+    value_fields(field, r);
     field("by", m.report.amendment.by);
     field("why", m.report.amendment.why);
   }
@@ -43,8 +49,7 @@ struct LaboratorySpecimenRow {
     field("test", r.test);
     condition_fields(field, r.conditions);
     field("batch", r.batch);
-    field("modulus_pa", r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa);
-    field("toughness_pa", r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa);
+    value_fields(field, r);
     field("points", r.curve.size());
     field("valid", r.valid);
     field("note", r.note);

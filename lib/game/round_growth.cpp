@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/random.hpp"
+#include "base/square.hpp"
 #include "base/statistics.hpp"
 
 namespace nacre::game {
@@ -38,8 +39,6 @@ Growth growth_of_draws(const std::function<double()>& draw) {
           .low_gpa_mpa = first + quantile(beyond, 0.05),
           .high_gpa_mpa = first + quantile(beyond, 0.95)};
 }
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "base/hash.hpp"
 #include "base/result.hpp"
+#include "base/temporary_folder.hpp"
 #include "command.hpp"
 #include "game/scenario.hpp"
 #include "output.hpp"
@@ -36,24 +37,6 @@ struct ReplayOptions {
   std::string scenario;
   bool recompute = false;
   bool json = false;
-};
-
-/// A folder for what recomputed work writes, gone with the object: a replay never touches the run.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "nacre-replay-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw InputError::format("{}: cannot be made", name);
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code left_behind;
-    fs::remove_all(path_, left_behind);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 /// The node as its own program makes it, except that its work writes into the scratch folder and its cache begins
@@ -110,7 +93,7 @@ int replay(const ReplayOptions& options) {
     throw InputError::format("{}: is a node's journal, expected the run's folder or its run.lcm", path.string());
   const fs::path folder = is_bus_log ? path.parent_path() : path;
   const game::Scenario scenario = read_scenario(folder, options);
-  const Scratch scratch;
+  const TemporaryFolder scratch("replay");  // a replay never touches the run
   // A person may have left the grouping of the family stage there.
   const fs::path families = fs::path("families") / "families.toml";
   if (fs::exists(folder / families)) {
