@@ -6,7 +6,8 @@ import { brushed, MECHANISMS, WHOLE, type Brush, type Known, type MechanismName,
 import type { Box } from "./brush_box";
 import type { Gamut } from "./gamut";
 import { typedNumber, words } from "./numbers";
-import { Problem, useDraft } from "./parts";
+import { useDraft } from "./kept_draft";
+import { Problem } from "./parts";
 import { useReading } from "./reading";
 import { MOST_LISTED, useShortlist, type Listed } from "./shortlist";
 

@@ -1,7 +1,8 @@
 // Which designs belong together: proposed by nacre, changed by a person.
 
 import type { Families, NamedSeeds } from "./api";
-import { MaterialKey, Notice, Unit, useDraft } from "./parts";
+import { useDraft } from "./kept_draft";
+import { MaterialKey, Notice, Unit } from "./parts";
 import { useSubmit } from "./submit";
 
 const NONE = -1;

@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { ImportFault, Laboratory, Understood, UnderstoodSpecimen } from "./api";
 import { postFiles, problemOf } from "./api";
-import { keepDraft, keptDraft } from "./kept_draft";
+import { keepDraft, keepTyping, keptDraft, keptTyping } from "./kept_draft";
 import type { NoticeText } from "./parts";
 import { cell, decoded, lineOf, sheetIn, sheetOfOrders, textOf, withCells, withParts, type Sheet } from "./sheet";
 
@@ -166,6 +166,7 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
   const change = (next: Draft) => {
     setDraft(next);
     const isEmpty = next.exports.length === 0 && !next.sheet;
+    keepTyping("import", isEmpty ? undefined : { ...next, exports: undefined });
     keepDraft("import", isEmpty ? undefined : next).catch(() =>
       setNotice({ kind: "bad", text: "This browser keeps no drafts: a reload would lose these files." }),
     );
@@ -174,9 +175,11 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
     void keptDraft<Draft>("import")
       .catch(() => undefined)
       .then((kept) => {
-        if (!kept) return;
-        setDraft(kept);
-        readAgain(kept);
+        const typed = keptTyping<Omit<Draft, "exports">>("import");
+        if (!kept && !typed) return;
+        const now = { ...EMPTY, ...kept, ...typed, exports: kept?.exports ?? [] };
+        setDraft(now);
+        readAgain(now);
       });
     return () => {
       clearTimeout(timer.current);

@@ -3,7 +3,8 @@
 import { useEffect, useState } from "preact/hooks";
 import type { Laboratory, Order } from "./api";
 import { typedNumber } from "./numbers";
-import { Notice, useDraft } from "./parts";
+import { useDraft } from "./kept_draft";
+import { Notice } from "./parts";
 import { useSubmit } from "./submit";
 
 export const EMPTY = {

@@ -2,7 +2,6 @@
 
 import { Fragment, type ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { openedRun } from "./api";
 import { MATERIAL } from "./colour";
 import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
@@ -320,44 +319,6 @@ export function unusual(test: {
   const turned = test.orientation_deg ? ", turned" : "";
   if (test.standard !== false) return turned;
   return `${turned}, at ${figure(test.strain_rate_per_s)} /s, ${figure(test.thickness_mm)} mm thick`;
-}
-
-const drafts = new Map<string, unknown>();
-const DRAFT = "nacre.draft.";
-
-/** What a reload of this tab left of a draft; undefined: nothing. */
-function leftOver(name: string): unknown {
-  try {
-    return JSON.parse(sessionStorage.getItem(DRAFT + name) ?? "") as unknown;
-  } catch {
-    return undefined;
-  }
-}
-
-function keep(name: string, value: unknown): void {
-  drafts.set(name, value);
-  try {
-    sessionStorage.setItem(DRAFT + name, JSON.stringify(value));
-  } catch {
-    // A long curve may not fit: it stays as long as the page does.
-  }
-}
-
-/** State of a run that outlives its view and a reload: what somebody has typed and not submitted. */
-export function useDraft<T>(draft: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
-  const name = `${openedRun()}/${draft}`;
-  const [value, setValue] = useState<T>(() =>
-    drafts.has(name) ? (drafts.get(name) as T) : ((leftOver(name) as T | undefined) ?? initial),
-  );
-  return [
-    value,
-    (next) =>
-      setValue((now) => {
-        const chosen = typeof next === "function" ? (next as (now: T) => T)(now) : next;
-        keep(name, chosen);
-        return chosen;
-      }),
-  ];
 }
 
 /** State that lives in the browser's storage, for the name of the person and the theme. */

@@ -3,7 +3,8 @@
 import type { Family, Laboratory, Proposed } from "./api";
 import { gpa, MPA, mpa, sentence, withError } from "./numbers";
 import { PriceOfRound } from "./next_round";
-import { DesignChip, MaterialKey, Name, Notice, Reason, Unit, useDraft } from "./parts";
+import { useDraft } from "./kept_draft";
+import { DesignChip, MaterialKey, Name, Notice, Reason, Unit } from "./parts";
 import { useSubmit } from "./submit";
 
 /** A design; those of the family stage have no scatter. */
