@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/statistics.hpp"
+#include "study_laboratory.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {
@@ -62,7 +63,7 @@ Baselines baselines_of(const StudyCase& study_case) {
 
 ErrorFloor floor_of(const StudyCase& study_case, sysid::LocalSimulator& simulator,
                     const std::function<void()>& may_go_on) {
-  const material::ParameterSet truth{study_case.truth.modulus, study_case.truth.toughness, {}};
+  const material::ParameterSet truth = as_tester_parameters(study_case.truth);
   const auto predictions = sysid::predict({truth}, study_case.held_out, simulator, may_go_on).front();
   std::vector<double> modulus, toughness, modulus_measured, toughness_measured, modulus_ratio, toughness_ratio;
   for (std::size_t i = 0; i < predictions.size(); ++i) {

@@ -13,8 +13,6 @@
 namespace nacre::calibration_study {
 namespace {
 
-constexpr int kHeldOut = 40;
-
 void add_effect(laboratory::Truth& truth, const std::string& effect) {
   const std::size_t equals = effect.find('=');
   for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
@@ -40,9 +38,11 @@ std::function<void()> deadline(double minutes) {
 StudyCase measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
   const auto fidelity = tester::fidelity_from_string(options.fidelity);
   if (!fidelity) throw InputError(fidelity.error().message);
-  StudyCase result{study_truth(seed, *fidelity), {}, {}};
+  const auto criterion = material::criterion_from_string(options.criterion);
+  if (!criterion) throw InputError(criterion.error().message);
+  StudyCase result{study_truth(seed, *fidelity, *criterion), {}, {}};
   for (const std::string& effect : options.effects) add_effect(result.truth, effect);
-  const StudyDesigns designs = draw_designs(seed, options.fitted, kHeldOut);
+  const StudyDesigns designs = draw_designs(seed, options.fitted, options.predicted);
   const std::string store = fmt::format("{}/laboratory-{}.bin", options.work, options.fidelity);
   result.fitted = measurement::summarise(measure(result.truth, designs.fitted, store, may_go_on));
   result.held_out = measurement::summarise(measure(result.truth, designs.held_out, store, may_go_on));

@@ -13,7 +13,9 @@ namespace nacre::calibration_study {
 struct Options {
   std::string fidelity = "preview", begin_at;
   int first_seed = 1, seeds = 5;
-  int fitted = 18;
+  int fitted = 18, predicted = 40;
+  std::string criterion = "crack_band";
+  bool next_round = false;
   std::vector<std::string> searches = {"posterior"};
   int budget = 25, ensemble = 8;
   std::string out = "logs/calibration-study", work = "logs/calibration-study";

@@ -9,6 +9,7 @@
 
 #include "baselines.hpp"
 #include "case.hpp"
+#include "study_laboratory.hpp"
 #include "sysid/offline.hpp"
 #include "table.hpp"
 
@@ -20,6 +21,7 @@ using sysid::PredictionErrors;
 
 const std::vector<std::string> kColumns = {"fidelity",
                                            "effect",
+                                           "criterion",
                                            "seed",
                                            "search",
                                            "fitted",
@@ -51,8 +53,14 @@ const std::vector<std::string> kColumns = {"fidelity",
                                            "E_p_value",
                                            "T_p_value",
                                            "E_chi2_replicates",
-                                           "T_chi2_replicates"};
-constexpr std::size_t kKeyColumns = 6;
+                                           "T_chi2_replicates",
+                                           "strength_cv_true",
+                                           "strength_cv",
+                                           "strength_cv_low90",
+                                           "strength_cv_high90",
+                                           "scatter_measured",
+                                           "scatter_predicted"};
+constexpr std::size_t kKeyColumns = 7;
 
 std::string number(double value, int digits = 4) { return fmt::format("{:.{}f}", value, digits); }
 
@@ -64,12 +72,14 @@ struct Coverage {
 /// `cells`, for every parameter.
 Coverage coverage_of(const Calibrated& calibrated, const laboratory::Truth& truth,
                      const std::vector<std::string>& cells, CalibrationTable& intervals) {
-  const material::ModulusVector theta = to_vector(truth.modulus);
-  const material::ToughnessVector eta = to_vector(truth.toughness);
+  const material::ParameterSet of_testers = as_tester_parameters(truth);
+  const material::ModulusVector theta = to_vector(of_testers.modulus);
+  const material::ToughnessVector eta = to_vector(of_testers.toughness);
   Coverage coverage;
   for (std::size_t j = 0; j < calibrated.estimates.size(); ++j) {
     const sysid::ParameterEstimate& estimate = calibrated.estimates[j];
-    const double value = j < theta.size() ? theta[j] : eta[j - theta.size()];
+    const std::size_t k = j - theta.size();  // behind eta: strength_cv
+    const double value = j < theta.size() ? theta[j] : k < eta.size() ? eta[k] : of_testers.strength_cv;
     std::vector<std::string> row(cells.begin(), cells.begin() + kKeyColumns);
     row.push_back(estimate.name);
     for (const double number : {value, estimate.value, estimate.low90, estimate.high90})
@@ -168,11 +178,12 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   std::vector<std::string> cells = {
       options.fidelity,
       effect,
+      options.criterion,
       std::to_string(seed),
       options.begin_at.empty() ? search : fmt::format("{} after {}", search, options.begin_at),
       std::to_string(options.fitted),
       std::to_string(options.budget)};
-  const bool wants_next = options.fitted < kMostFitted && !tables.next_round.has(cells);
+  const bool wants_next = options.next_round && options.fitted < kMostFitted && !tables.next_round.has(cells);
   if (tables.held_out.has(cells) && !wants_next) return;
   const StudyCase study_case = measured_case(seed, options, may_go_on);
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
@@ -226,19 +237,22 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   cells.push_back(std::to_string(coverage.determined));
   append(cells, {calibrated.modulus_fit.p_value, calibrated.toughness_fit.p_value,
                  calibrated.modulus_fit.chi_squared_replicates, calibrated.toughness_fit.chi_squared_replicates});
+  const sysid::StrengthVariation variation = calibrated.strength_variation.value_or(sysid::StrengthVariation{});
+  append(cells, {study_case.truth.strength_cv, variation.strength_cv, variation.low90, variation.high90,
+                 variation.measured_sd, variation.predicted_sd});
   tables.held_out.add(cells);
   fmt::print(
       "{} {} seed {} {:12} n {} budget {}: T objective {:.3f}  E held out {:.4f}  T held out {:.3f} (mean of ensemble "
       "{:.3f}; line {:.3f}, floor {:.3f})  "
       "spearman {:.2f} ({:.2f}; floor {:.2f})  covered {}/{}\n",
-      options.fidelity, effect, seed, cells[3], options.fitted, options.budget, calibrated.toughness_objective_after,
+      options.fidelity, effect, seed, cells[4], options.fitted, options.budget, calibrated.toughness_objective_after,
       after.modulus_mean, after.toughness_mean, mean.toughness_mean, baselines.toughness_line, floor.toughness,
       after.toughness_spearman, mean.toughness_spearman, floor.toughness_spearman, coverage.covered,
       coverage.determined);
   std::fflush(stdout);
   for (std::size_t k = 0; k < calibrated.toughness_objectives.size(); ++k) {
-    tables.convergence.add({options.fidelity, effect, std::to_string(seed), cells[3], std::to_string(options.fitted),
-                            std::to_string(options.budget), std::to_string(k + 1),
+    tables.convergence.add({options.fidelity, effect, options.criterion, std::to_string(seed), cells[4],
+                            std::to_string(options.fitted), std::to_string(options.budget), std::to_string(k + 1),
                             number(calibrated.toughness_objectives[k])});
   }
 }
@@ -256,19 +270,19 @@ void measure_laboratories(const Options& options) {
 
 void study_held_out(const Options& options) {
   const auto may_go_on = deadline(options.minutes);
-  Tables tables = {
-      CalibrationTable(options.out + "/held_out.csv", kColumns, kKeyColumns),
-      CalibrationTable(options.out + "/convergence.csv",
-                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"},
-                       kKeyColumns + 1),
-      CalibrationTable(options.out + "/intervals.csv",
-                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "parameter", "truth", "estimate",
-                        "low90", "high90", "determined"},
-                       kKeyColumns + 1),
-      CalibrationTable(options.out + "/next_round.csv",
-                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "next", "E_next", "T_next",
-                        "T_ensemble", "T_line", "T_floor"},
-                       kKeyColumns)};
+  Tables tables = {CalibrationTable(options.out + "/held_out.csv", kColumns, kKeyColumns),
+                   CalibrationTable(options.out + "/convergence.csv",
+                                    {"fidelity", "effect", "criterion", "seed", "search", "fitted", "budget",
+                                     "evaluation", "T_objective"},
+                                    kKeyColumns + 1),
+                   CalibrationTable(options.out + "/intervals.csv",
+                                    {"fidelity", "effect", "criterion", "seed", "search", "fitted", "budget",
+                                     "parameter", "truth", "estimate", "low90", "high90", "determined"},
+                                    kKeyColumns + 1),
+                   CalibrationTable(options.out + "/next_round.csv",
+                                    {"fidelity", "effect", "criterion", "seed", "search", "fitted", "budget", "next",
+                                     "E_next", "T_next", "T_ensemble", "T_line", "T_floor"},
+                                    kKeyColumns)};
   for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
     for (const std::string& search : options.searches) {
       study_one(options, static_cast<std::uint64_t>(seed), search, tables, may_go_on);

@@ -19,6 +19,10 @@ int main(int argc, char** argv) {
     command.add_option("--first-seed", options.first_seed)->capture_default_str();
     command.add_option("--seeds", options.seeds, "laboratories")->capture_default_str();
     command.add_option("--fitted", options.fitted, "designs to calibrate on")->capture_default_str();
+    command.add_option("--predicted", options.predicted, "designs to predict")->capture_default_str();
+    command.add_option("--criterion", options.criterion, "by which the laboratory's material fails")
+        ->capture_default_str();
+    command.add_flag("--next", options.next_round, "predict the designs of the next round too");
     command.add_option("--search", options.searches, "how eta is searched; several may follow")->capture_default_str();
     command.add_option("--budget", options.budget, "evaluations of the toughness set")->capture_default_str();
     command.add_option("--ensemble", options.ensemble, "further parameter sets for predictions")->capture_default_str();

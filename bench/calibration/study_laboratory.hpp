@@ -10,9 +10,12 @@
 
 namespace nacre::calibration_study {
 
-/// The truth of one laboratory of the study: constants drawn from the seed, no effects, replicate scatter of 5 % in T
-/// and 1 % in E.
-laboratory::Truth study_truth(std::uint64_t seed, tester::Fidelity fidelity);
+/// The truth of one laboratory of the study: constants and variation of strength drawn from the seed, no effects; its
+/// material fails by `criterion`.
+laboratory::Truth study_truth(std::uint64_t seed, tester::Fidelity fidelity, material::CriterionKind criterion);
+
+/// The constants of such a truth as the testers' base model has them, W by its own criterion.
+material::ParameterSet as_tester_parameters(const laboratory::Truth& truth);
 
 /// Called between two simulations; throws to stop.
 using MayGoOn = std::function<void()>;

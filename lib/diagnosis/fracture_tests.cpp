@@ -113,6 +113,7 @@ FractureSearch FractureTests::search(const material::ParameterSet& start, const 
   settings.start.extensions.clear();
   settings.modulus_budget = 0;
   settings.toughness_budget = budget;
+  settings.strength_variation = false;
   settings.seed = seed;
   sysid::Calibration calibration(searched.measured, settings);
   FractureSearch result;

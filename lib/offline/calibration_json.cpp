@@ -59,6 +59,16 @@ nlohmann::ordered_json residuals_of(const sysid::OfflineCalibration& result) {
   return residuals;
 }
 
+/// How specimens of a design scatter in log T; nothing where strength_cv was not fitted.
+nlohmann::ordered_json scatter_json(const std::optional<sysid::StrengthVariation>& fitted) {
+  if (!fitted) return nullptr;
+  return {{"measured_sd", fitted->measured_sd},
+          {"predicted_sd", fitted->predicted_sd},
+          {"measuring_sd", fitted->measuring_sd},
+          {"correlation", fitted->correlation},
+          {"freedom", fitted->freedom}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
@@ -75,6 +85,7 @@ nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
   return {{"before", {{"fitted", to_json(result.before_fitted)}, {"held_out", to_json(result.before_held_out)}}},
           {"after", after},
           {"parameters", parameters},
+          {"scatter", scatter_json(calibrated.strength_variation)},
           {"simulations", result.simulations},
           {"begun_simulations", result.begun_simulations},
           {"fitted", result.fitted},

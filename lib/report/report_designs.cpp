@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "report/design_picture.hpp"
 #include "report/report_data.hpp"
 #include "report/report_text.hpp"
@@ -17,10 +19,13 @@ std::string deviation(double predicted, double measured) {
   return share > 0.0 ? "+" + percent(share) : percent(share);
 }
 
-/// With the scatter of specimens, as measured values have it.
+/// With the scatter of specimens, as measured values have it; their number and the mean's standard error as a hint.
 Cell predicted_toughness(const wire::ProposedDesign& proposal) {
   if (proposal.specimens < 2) return mpa_cell(proposal.toughness_pa);
-  return shown_cell(with_error(proposal.toughness_pa * 1e-6, proposal.toughness_sd_pa * 1e-6));
+  return shown_cell(fmt::format("<span title=\"mean of {} specimens, standard error {} MPa\">{}</span>",
+                                proposal.specimens,
+                                figure(proposal.toughness_sd_pa * 1e-6 / std::sqrt(proposal.specimens)),
+                                with_error(proposal.toughness_pa * 1e-6, proposal.toughness_sd_pa * 1e-6)));
 }
 
 /// Predicted and measured E and T; `missing`: what stands for measured values where there are none.

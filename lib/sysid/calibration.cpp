@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <iterator>
 #include <optional>
 #include <span>
 
@@ -96,6 +98,7 @@ struct Calibration::State {
   std::vector<std::optional<std::vector<Prediction>>> told;
   int batch_number = 0;
   int toughness_evaluations = 0;
+  bool fitting_scatter = false;  ///< strength_cv, before the rest
   Calibrated result;
 
   std::span<const ParameterRange> modulus_ranges() const { return settings.ranges.modulus(settings.target); }
@@ -143,7 +146,7 @@ struct Calibration::State {
                             .floor = settings.floor});
     }
     if (!toughness.items.empty()) begin_toughness();
-    ask();
+    if (!ask_for_scatter()) ask();
   }
 
   void begin_toughness() {
@@ -220,6 +223,43 @@ struct Calibration::State {
     told.assign(wanted.size(), std::nullopt);
   }
 
+  /// How much specimens scatter at the start, of every design whose replicates do: hardly a matter of eta, while T
+  /// itself falls with strength_cv, so that this comes first. Whether it was asked for.
+  bool ask_for_scatter() {
+    if (!settings.strength_variation || settings.toughness_budget == 0 || settings.start.strength_cv <= 0.0)
+      return false;
+    std::vector<std::size_t> replicated;
+    std::ranges::copy_if(toughness.items, std::back_inserter(replicated),
+                         [&](std::size_t item) { return measured[item].toughness_count > 1; });
+    if (replicated.empty()) return false;
+    for (const double strength_cv : {kSmallVariation, kLargeVariation}) {
+      wanted.push_back({.id = fmt::format("scatter.{}", wanted.size()),
+                        .parameters = settings.start,
+                        .toughness = true,
+                        .items = replicated,
+                        .first_specimen = tester::kFirstScatterSpecimen,
+                        .specimens = kScatterSpecimens});
+      wanted.back().parameters.strength_cv = strength_cv;
+    }
+    told.assign(wanted.size(), std::nullopt);
+    fitting_scatter = true;
+    return true;
+  }
+
+  void take_scatter() {
+    fitting_scatter = false;
+    std::array<std::vector<Prediction>, 2> simulated;
+    for (std::size_t which = 0; which < simulated.size(); ++which) {
+      simulated[which].resize(measured.size());
+      for (std::size_t k = 0; k < wanted[which].items.size(); ++k)
+        simulated[which][wanted[which].items[k]] = (*told[which])[k];
+    }
+    const std::vector<DesignScatter> designs = design_scatter(measured, simulated[0], simulated[1]);
+    if (designs.empty()) return;
+    result.strength_variation = fit_strength_variation(designs, expected_measuring_sd(measured));
+    settings.start.strength_cv = result.parameters.strength_cv = result.strength_variation->strength_cv;
+  }
+
   void take(std::size_t index, const std::vector<Prediction>& predictions) {
     assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
     if (told[index]) return;  // a repeat
@@ -229,7 +269,7 @@ struct Calibration::State {
     told[index] = std::move(shown);
     result.simulations += predictions.size();
     if (std::any_of(told.begin(), told.end(), [](const auto& each) { return !each; })) return;
-    hand_over();
+    fitting_scatter ? take_scatter() : hand_over();
     ask();
     if (wanted.empty()) conclude();
   }
@@ -292,6 +332,9 @@ struct Calibration::State {
                   to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
     add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
                   to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_eta_sd);
+    if (const auto& fitted = result.strength_variation)
+      result.estimates.push_back(
+          {"toughness.strength_cv", fitted->strength_cv, fitted->low90, fitted->high90, fitted->determined()});
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
     add_likelihood();

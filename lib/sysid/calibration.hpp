@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "sysid/errors.hpp"
 #include "sysid/likelihood.hpp"
 #include "sysid/prediction.hpp"
+#include "sysid/strength_variation.hpp"
 #include "sysid/toughness_search.hpp"
 #include "sysid/wanted_evaluation.hpp"
 #include "thesis/constants.hpp"
@@ -30,7 +32,9 @@ struct CalibrationSettings {
   int batch = thesis::kCalibrationBatch;  ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
   ToughnessSearch toughness_search = ToughnessSearch::posterior;
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
-  int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible
+  bool strength_variation = true;  ///< first fit strength_cv to the scatter of replicates, where eta is fitted and the
+                                   ///< start has any: breaks kScatterSpecimens of every replicated design
+  int ensemble_size = 0;           ///< further parameter sets drawn from what the data leave possible
   DiscretisationFloor floor;
   std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), above 0, at most 1: a weight of
                                 ///< 0.1 counts as a tenth of a design
@@ -61,6 +65,7 @@ struct Calibrated {
   /// -2 log likelihood of E and T with replicate covariance and floor, constants left out: what (2.8) does not weigh.
   double modulus_deviance = 0.0, toughness_deviance = 0.0;
   GoodnessOfFit modulus_fit, toughness_fit;
+  std::optional<StrengthVariation> strength_variation;  ///< where it was fitted
   /// Smallest toughness objective of each search, when there were several.
   std::vector<double> search_objectives;
   /// Sets drawn from what the data leave possible, `parameters` not among them: the spread of their predictions is the
@@ -68,6 +73,9 @@ struct Calibrated {
   std::vector<material::ParameterSet> ensemble;
   int simulations = 0;
 };
+
+/// Specimens of a design that tell its scatter, at each of two variations of strength.
+inline constexpr int kScatterSpecimens = 3;
 
 /// A calibration in progress. Deterministic in its settings and in what it was told.
 class Calibration {

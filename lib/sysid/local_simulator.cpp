@@ -70,7 +70,10 @@ struct LocalSimulator::State {
       if (toughness_pa.empty()) prediction.curve = one.curve;
       toughness_pa.push_back(*one.toughness_pa);
     }
-    if (!toughness_pa.empty()) prediction.toughness_pa = mean(toughness_pa);
+    if (toughness_pa.empty()) return prediction;
+    prediction.toughness_pa = mean(toughness_pa);
+    prediction.specimens = toughness_pa.size();
+    if (toughness_pa.size() > 1) prediction.toughness_sd_pa = standard_deviation(toughness_pa);
     return prediction;
   }
 };

@@ -106,6 +106,7 @@ Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, cons
   CalibrationSettings first = settings, second = settings;
   first.floor = cheaper_floor;
   first.searches = 1;
+  first.strength_variation = false;
   first.ensemble_size =
       std::max(1, settings.batch) - 1;  // with the parameters themselves, the first batch of the second
   const Calibrated begun = run_calibration(measured, first, cheaper, progress);

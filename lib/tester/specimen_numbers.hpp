@@ -9,6 +9,7 @@ inline constexpr int kSearchSpecimen = 0;               ///< one a sample
 inline constexpr int kFirstSelectionSpecimen = 1;       ///< of a candidate's T: at most 100
 inline constexpr int kFirstPredictionSpecimen = 200;    ///< of a design's predicted T ...
 inline constexpr int kPredictionSpecimens = 8;          ///< ... so many, unless asked otherwise
+inline constexpr int kFirstScatterSpecimen = 900;       ///< of a design's scatter: at most 100
 inline constexpr int kFirstCalibrationSpecimen = 1000;  ///< one an evaluation
 
 }  // namespace nacre::tester

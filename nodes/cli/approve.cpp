@@ -2,6 +2,7 @@
 // own.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -208,6 +209,15 @@ int approve_listed(const ApproveOptions& options, const RunAccess& run) {
   });
 }
 
+/// "0.431 +- 0.012 MPa (8 specimens, scatter 8 %)": with its standard error, where T is the mean of several.
+std::string toughness_in_words(const wire::ProposedDesign& design) {
+  const std::string mean = shown(1e-6 * design.toughness_pa);
+  if (design.specimens < 2) return mean + " MPa";
+  return fmt::format("{} +- {} MPa ({} specimens, scatter {:.0f} %)", mean,
+                     shown(1e-6 * design.toughness_sd_pa / std::sqrt(design.specimens)), design.specimens,
+                     100.0 * design.toughness_sd_pa / design.toughness_pa);
+}
+
 /// The designs, each with its state, and how many wait for a person.
 void list_designs(const LaboratoryView& laboratory, const wire::Proposal& proposal, bool waits_for_approval) {
   const std::map<std::string, game::DesignStage> stages = stages_in(laboratory.facts);
@@ -217,8 +227,8 @@ void list_designs(const LaboratoryView& laboratory, const wire::Proposal& propos
     const auto known = stages.find(design.design.name());
     const auto stage = known == stages.end() ? game::DesignStage::pending : known->second;
     if (stage == game::DesignStage::pending) ++waiting;
-    fmt::print("{}  {:18}  E {} GPa  T {} MPa  {}\n", design.design.name(), stage_in_words(stage, waits_for_approval),
-               shown(1e-9 * design.modulus_pa), shown(1e-6 * design.toughness_pa), design.reason);
+    fmt::print("{}  {:18}  E {} GPa  T {}  {}\n", design.design.name(), stage_in_words(stage, waits_for_approval),
+               shown(1e-9 * design.modulus_pa), toughness_in_words(design), design.reason);
   }
   if (waits_for_approval && waiting > 0) fmt::print("{}\n", waiting_in_words(waiting));
 }

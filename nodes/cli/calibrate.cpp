@@ -99,6 +99,9 @@ void print_table(const sysid::OfflineCalibration& result, const material::Parame
     fmt::print("designs held out, mean of the ensemble's predictions: T {:.1f} %\n",
                100.0 * result.ensemble_held_out.toughness_mean);
   }
+  if (const auto& scatter = result.calibrated.strength_variation)
+    fmt::print("replicates scatter by {:.1f} % in T, {:.1f} % by the model; measuring alone by {:.1f} %\n",
+               100.0 * scatter->measured_sd, 100.0 * scatter->predicted_sd, 100.0 * scatter->measuring_sd);
   print_reservations(result, ranges);
   print_fit("E", result.calibrated.modulus_fit);
   print_fit("T", result.calibrated.toughness_fit);

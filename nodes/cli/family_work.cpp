@@ -36,6 +36,7 @@ sysid::Calibrated family_model(const SeedFamily& family, const FamilyData& data,
   settings.ranges = data.ranges;
   settings.start = data.parameters;
   settings.toughness_budget = options.calibration;
+  settings.strength_variation = false;  // few designs: that of the whole
   settings.seed = options.seed;
   settings.floor =
       sysid::read_discretisation_floor(discretisation_floor_file(options.discretisation_floor), data.fidelity);

@@ -154,6 +154,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
   settings.start = beginning_.model;
   settings.modulus_budget = scenario_.families.modulus_evaluations;
   settings.toughness_budget = scenario_.families.calibration_evaluations;
+  settings.strength_variation = false;  // few designs: that of the whole
   settings.batch = scenario_.validation.calibration_batch;
   settings.floor = beginning_.floor;
   settings.seed = RandomStream(scenario_.seed, "calibration of " + group.name).bits();

@@ -21,6 +21,8 @@ sysid::Prediction prediction_of(const wire::SimulatedDesign& result, bool modulu
   if (modulus) prediction.modulus_pa = result.modulus_pa;
   if (toughness) {
     prediction.toughness_pa = result.toughness_pa;
+    prediction.toughness_sd_pa = result.toughness_sd_pa;
+    prediction.specimens = result.specimens;
     prediction.curve = result.curve;
   }
   return prediction;

@@ -156,6 +156,7 @@ void ValidationCore::begin_calibration(const material::ParameterSet& start) {
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
   settings.toughness_budget = scenario_.validation.calibration_evaluations;
   settings.batch = scenario_.validation.calibration_batch;
+  settings.strength_variation = !extending_;  // an extension is compared at the variation of the model it extends
   settings.floor = start_.floor;
   settings.seed = RandomStream(scenario_.seed, fmt::format("calibration of round {}", round_)).bits();
   fitting_.emplace(calibration_set_, settings);
@@ -203,6 +204,9 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
       say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom",
                                          round_, what, fit.chi_squared, fit.freedom));
   }
+  if (const auto& scatter = result.strength_variation)
+    say(LogLevel::info, fmt::format("round {}: replicates scatter by {:.1f} % in T, {:.1f} % by the model", round_,
+                                    100.0 * scatter->measured_sd, 100.0 * scatter->predicted_sd));
   for (const sysid::ParameterEstimate& each : sysid::at_an_end(result, start_.ranges, fit_target())) {
     // The fracture tester has moduli of its own, at bounds that the thesis' inks reach; what the data do not tell may
     // end anywhere. Base materials alone determine each modulus by its own test.

@@ -1,7 +1,7 @@
 // Designs proposed for the laboratory, to be approved or rejected, and designs of a person's own.
 
 import type { Family, Laboratory, Proposed } from "./api";
-import { gpa, MPA, mpa, sentence, withError } from "./numbers";
+import { gpa, MPA, mpa, percent, sentence, withError } from "./numbers";
 import { PriceOfRound } from "./next_round";
 import { useDraft } from "./kept_draft";
 import { DesignChip, MaterialKey, Name, Notice, Reason, Unit } from "./parts";
@@ -52,9 +52,11 @@ function outlook(offer: Offer, waits: boolean, approval: boolean): string {
   return waits ? "The game waits: approve or reject each design." : "";
 }
 
-/** With the scatter of its specimens, where it is the mean of several. */
-function predictedToughness({ toughness_pa, toughness_sd_pa, specimens }: Offered): string {
-  return (specimens ?? 0) > 1 ? withError(toughness_pa * MPA, (toughness_sd_pa ?? 0) * MPA) : mpa(toughness_pa);
+/** With its standard error and scatter, where it is the mean of several specimens. */
+function predictedToughness({ toughness_pa, toughness_sd_pa = 0, specimens = 0 }: Offered): string {
+  if (specimens < 2) return `${mpa(toughness_pa)} MPa`;
+  const mean = withError(toughness_pa * MPA, (toughness_sd_pa * MPA) / Math.sqrt(specimens));
+  return `${mean} MPa (mean of ${specimens} specimens, scatter ${percent(toughness_sd_pa / toughness_pa)})`;
 }
 
 export function Proposals({
@@ -131,7 +133,7 @@ export function Proposals({
               <div>
                 <Name design={p.design} />
                 <p>
-                  Predicted: E {gpa(p.modulus_pa)} GPa, T {predictedToughness(p)} MPa
+                  Predicted: E {gpa(p.modulus_pa)} GPa, T {predictedToughness(p)}
                 </p>
                 <Reason text={p.reason} />
                 <p>
