@@ -115,19 +115,13 @@ FractureSearch FractureTests::search(const material::ParameterSet& start, const 
   settings.toughness_budget = budget;
   settings.strength_variation = false;
   settings.seed = seed;
-  sysid::Calibration calibration(searched.measured, settings);
   FractureSearch result;
-  while (!calibration.finished()) {
-    const std::vector<sysid::WantedEvaluation> wanted = calibration.wanted();
-    const double share = calibration.progress();
-    const auto simulated = simulator_->simulate(searched.measured, wanted, [&] { progress(share, "calibrating"); });
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      if (wanted[k].toughness && wanted[k].specimens == 1 && wanted[k].items.size() == searched.measured.size())
-        result.runs.push_back(run_of(wanted[k].parameters, simulated[k], searched.of_group));
-      calibration.tell(k, simulated[k]);
-    }
-  }
-  result.best = calibration.result().parameters.toughness;
+  const auto keep_run = [&](const sysid::WantedEvaluation& wanted, const std::vector<sysid::Prediction>& predictions) {
+    if (wanted.toughness && wanted.items.size() == searched.measured.size())
+      result.runs.push_back(run_of(wanted.parameters, predictions, searched.of_group));
+  };
+  result.best =
+      sysid::run_calibration(searched.measured, settings, *simulator_, progress, keep_run).parameters.toughness;
   return result;
 }
 

@@ -389,8 +389,6 @@ void BaseCalibration::tell(std::size_t index, const std::vector<Prediction>& pre
   state_->take(index, predictions);
 }
 
-bool BaseCalibration::finished() const { return state_->wanted.empty(); }
-
 double BaseCalibration::progress() const { return state_->progress(); }
 
 const Calibrated& BaseCalibration::result() const { return state_->result; }

@@ -14,19 +14,18 @@ bool is_base_material(const pattern::Design& design);
 
 /// Each of soft, rigid and interface is fitted by itself, to the parameters that it depends on, at a damping that suits
 /// all three; when there is none, the one at which the worst of them misses least. (The thesis keeps the median of
-/// three separate estimates; thresholds fitted at another damping then miss.) Same protocol as Calibration;
-/// toughness_budget is per material, over all dampings.
-class BaseCalibration {
+/// three separate estimates; thresholds fitted at another damping then miss.) toughness_budget is per material, over
+/// all dampings.
+class BaseCalibration final : public CalibrationProtocol {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);
-  ~BaseCalibration();
+  ~BaseCalibration() override;
   BaseCalibration(BaseCalibration&&) noexcept;
   BaseCalibration& operator=(BaseCalibration&&) noexcept;
-  const std::vector<WantedEvaluation>& wanted() const;
-  void tell(std::size_t index, const std::vector<Prediction>& predictions);
-  bool finished() const;
-  double progress() const;
-  const Calibrated& result() const;
+  const std::vector<WantedEvaluation>& wanted() const override;
+  void tell(std::size_t index, const std::vector<Prediction>& predictions) override;
+  double progress() const override;
+  const Calibrated& result() const override;
 
  private:
   struct State;

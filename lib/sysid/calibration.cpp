@@ -29,9 +29,17 @@ using material::ParameterRange;
 using material::ParameterSet;
 
 /// The fit of one tester's parameters, and the measured designs that it uses.
-struct Half {
+struct TesterFit {
   std::unique_ptr<ParameterFit> fit;  ///< none when nothing was measured
   std::vector<std::size_t> items;     ///< indices into the measured designs
+  double progress() const { return fit ? fit->progress() : 1.0; }
+  double freedom_taken() const { return fit ? fit->freedom_taken() : 0.0; }
+};
+
+/// How a fit went: objectives of all trials, of the initial guess and of the best.
+struct FitCourse {
+  std::vector<double>& all;
+  double &before, &after;
 };
 
 template <class Vector>
@@ -92,7 +100,7 @@ struct Calibration::State {
   std::vector<measurement::Replicates> measured;
   CalibrationSettings settings;
   std::vector<double> weights;
-  Half modulus, toughness;
+  TesterFit modulus, toughness;
   std::vector<WantedEvaluation> wanted;
   std::size_t modulus_wanted = 0;  ///< the first ones of `wanted`; the rest are for toughness
   std::vector<std::optional<std::vector<Prediction>>> told;
@@ -202,15 +210,15 @@ struct Calibration::State {
   void ask() {
     wanted.clear();
     ++batch_number;
-    const auto add = [&](Half& half, bool is_modulus) {
-      if (half.fit == nullptr) return;
-      const std::vector<Point> points = half.fit->ask();
+    const auto add = [&](const TesterFit& tester, bool is_modulus) {
+      if (tester.fit == nullptr) return;
+      const std::vector<Point> points = tester.fit->ask();
       for (const Point& point : points) {
         WantedEvaluation evaluation{.id = fmt::format("{}{}.{}", is_modulus ? 'E' : 'T', batch_number, wanted.size()),
                                     .parameters = settings.start,
                                     .modulus = is_modulus,
                                     .toughness = !is_modulus,
-                                    .items = half.items};
+                                    .items = tester.items};
         if (is_modulus) evaluation.parameters.modulus = modulus_at(point);
         if (!is_modulus) evaluation.parameters.toughness = toughness_at(point);
         if (!is_modulus) evaluation.first_specimen = tester::kFirstCalibrationSpecimen + toughness_evaluations++;
@@ -303,30 +311,32 @@ struct Calibration::State {
     }
   }
 
+  /// The course of a tester's fit; what it first and at last predicts of each design goes to `before` and the result.
+  void take_over(const TesterFit& tester, std::optional<double> Prediction::*value, FitCourse course,
+                 std::vector<Prediction>& before) {
+    for (const FitTrial& trial : tester.fit->trials()) course.all.push_back(trial.objective);
+    const FitTrial &first = tester.fit->first(), &best = tester.fit->best();
+    course.before = first.objective, course.after = best.objective;
+    for (std::size_t k = 0; k < tester.items.size(); ++k) {
+      before[tester.items[k]].*value = first.predictions[k].*value;
+      result.predictions[tester.items[k]].*value = best.predictions[k].*value;
+    }
+  }
+
   void conclude() {
     std::vector<Prediction> before(measured.size());
-    std::vector<Prediction>& after = result.predictions;
     if (modulus.fit != nullptr) {
-      for (const FitTrial& trial : modulus.fit->trials()) result.modulus_objectives.push_back(trial.objective);
       result.parameters.modulus = modulus_at(modulus.fit->best().point);
-      result.modulus_objective_before = modulus.fit->first().objective;
-      result.modulus_objective_after = modulus.fit->best().objective;
-      for (std::size_t k = 0; k < modulus.items.size(); ++k) {
-        before[modulus.items[k]].modulus_pa = modulus.fit->first().predictions[k].modulus_pa;
-        after[modulus.items[k]].modulus_pa = modulus.fit->best().predictions[k].modulus_pa;
-      }
+      take_over(modulus, &Prediction::modulus_pa,
+                {result.modulus_objectives, result.modulus_objective_before, result.modulus_objective_after}, before);
     }
     if (toughness.fit != nullptr) {
-      for (const FitTrial& trial : toughness.fit->trials()) result.toughness_objectives.push_back(trial.objective);
       result.parameters.toughness = toughness_at(toughness.fit->best().point);
-      result.toughness_objective_before = toughness.fit->first().objective;
-      result.toughness_objective_after = toughness.fit->best().objective;
-      for (std::size_t k = 0; k < toughness.items.size(); ++k) {
-        before[toughness.items[k]].toughness_pa = toughness.fit->first().predictions[k].toughness_pa;
-        const Prediction& best = toughness.fit->best().predictions[k];
-        after[toughness.items[k]].toughness_pa = best.toughness_pa;
-        after[toughness.items[k]].curve = best.curve;
-      }
+      take_over(toughness, &Prediction::toughness_pa,
+                {result.toughness_objectives, result.toughness_objective_before, result.toughness_objective_after},
+                before);
+      for (std::size_t k = 0; k < toughness.items.size(); ++k)
+        result.predictions[toughness.items[k]].curve = toughness.fit->best().predictions[k].curve;
     }
     add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
                   to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
@@ -336,17 +346,16 @@ struct Calibration::State {
       result.estimates.push_back(
           {"toughness.strength_cv", fitted->strength_cv, fitted->low90, fitted->high90, fitted->determined()});
     result.before = prediction_errors(measured, before);
-    result.after = prediction_errors(measured, after);
+    result.after = prediction_errors(measured, result.predictions);
     add_likelihood();
     add_ensemble();
   }
 
   void add_likelihood() {
-    const auto taken_by = [](const Half& half) { return half.fit != nullptr ? half.fit->freedom_taken() : 0.0; };
     const Likelihood modulus_likelihood =
-        modulus_likelihood_of(measured, result.predictions, settings.floor, taken_by(modulus));
+        modulus_likelihood_of(measured, result.predictions, settings.floor, modulus.freedom_taken());
     const Likelihood toughness_likelihood =
-        toughness_likelihood_of(measured, result.predictions, settings.floor, taken_by(toughness));
+        toughness_likelihood_of(measured, result.predictions, settings.floor, toughness.freedom_taken());
     result.modulus_deviance = modulus_likelihood.deviance;
     result.modulus_fit = modulus_likelihood.fit;
     result.toughness_deviance = toughness_likelihood.deviance;
@@ -364,9 +373,8 @@ struct Calibration::State {
 
   double progress() const {
     // A toughness simulation is by far the dearer one.
-    const double of_modulus = modulus.fit == nullptr ? 1.0 : modulus.fit->progress();
-    if (toughness.fit == nullptr) return of_modulus;
-    return 0.05 * of_modulus + 0.95 * toughness.fit->progress();
+    if (toughness.fit == nullptr) return modulus.progress();
+    return 0.05 * modulus.progress() + 0.95 * toughness.progress();
   }
 };
 
@@ -386,8 +394,6 @@ const std::vector<WantedEvaluation>& Calibration::wanted() const { return state_
 void Calibration::tell(std::size_t index, const std::vector<Prediction>& predictions) {
   state_->take(index, predictions);
 }
-
-bool Calibration::finished() const { return state_->wanted.empty(); }
 
 double Calibration::progress() const { return finished() ? 1.0 : state_->progress(); }
 

@@ -1,6 +1,5 @@
 #pragma once
-// System identification (thesis 2.3.2): parameters that make the testers agree with measurements. Ask and tell, so that
-// the simulations may run on the farm or in this process.
+// System identification (thesis 2.3.2): parameters that make the testers agree with measurements.
 
 #include <cstdint>
 #include <memory>
@@ -10,13 +9,13 @@
 
 #include "material/ranges.hpp"
 #include "measurement/summary.hpp"
+#include "sysid/calibration_protocol.hpp"
 #include "sysid/discretisation_floor.hpp"
 #include "sysid/errors.hpp"
 #include "sysid/likelihood.hpp"
 #include "sysid/prediction.hpp"
 #include "sysid/strength_variation.hpp"
 #include "sysid/toughness_search.hpp"
-#include "sysid/wanted_evaluation.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::sysid {
@@ -77,20 +76,17 @@ struct Calibrated {
 /// Specimens of a design that tell its scatter, at each of two variations of strength.
 inline constexpr int kScatterSpecimens = 3;
 
-/// A calibration in progress. Deterministic in its settings and in what it was told.
-class Calibration {
+/// Of designs whose microstructures were measured.
+class Calibration final : public CalibrationProtocol {
  public:
   Calibration(std::vector<measurement::Replicates> measured, const CalibrationSettings& settings);
-  ~Calibration();
+  ~Calibration() override;
   Calibration(Calibration&&) noexcept;
   Calibration& operator=(Calibration&&) noexcept;
-  /// Evaluations wanted next; empty when finished. The same until tell() has received them all.
-  const std::vector<WantedEvaluation>& wanted() const;
-  /// Predictions of wanted()[index], one per item of it, in order. Measurement-side extensions are applied here.
-  void tell(std::size_t index, const std::vector<Prediction>& predictions);
-  bool finished() const;
-  double progress() const;  ///< 0..1
-  const Calibrated& result() const;
+  const std::vector<WantedEvaluation>& wanted() const override;
+  void tell(std::size_t index, const std::vector<Prediction>& predictions) override;
+  double progress() const override;
+  const Calibrated& result() const override;
 
  private:
   struct State;

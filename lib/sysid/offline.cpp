@@ -64,21 +64,6 @@ Split split_set(const measurement::MeasurementSet& set, const OfflineSettings& s
   return split;
 }
 
-template <class AnyCalibration>
-Calibrated finish(AnyCalibration calibration, const std::vector<Replicates>& measured, LocalSimulator& simulator,
-                  const ProgressCallback& progress) {
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    const double share = calibration.progress();
-    const auto done = [&] {
-      if (progress) progress(share, "calibrating");
-    };
-    const auto predictions = simulator.simulate(measured, wanted, done);
-    for (std::size_t k = 0; k < wanted.size(); ++k) calibration.tell(k, predictions[k]);
-  }
-  return calibration.result();
-}
-
 /// Sum of logarithms and count of one quantity over the members.
 struct LogMean {
   double sum = 0.0;
@@ -94,10 +79,22 @@ struct LogMean {
 }  // namespace
 
 Calibrated run_calibration(const std::vector<Replicates>& measured, const CalibrationSettings& settings,
-                           LocalSimulator& simulator, const ProgressCallback& progress) {
-  if (settings.target == material::FitTarget::base)
-    return finish(BaseCalibration(measured, settings), measured, simulator, progress);
-  return finish(Calibration(measured, settings), measured, simulator, progress);
+                           LocalSimulator& simulator, const ProgressCallback& progress,
+                           const EvaluationObserver& observe) {
+  const auto calibration = begin_calibration(measured, settings);
+  while (!calibration->finished()) {
+    const std::vector<WantedEvaluation> wanted = calibration->wanted();
+    const double share = calibration->progress();
+    const auto done = [&] {
+      if (progress) progress(share, "calibrating");
+    };
+    const auto predictions = simulator.simulate(measured, wanted, done);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (observe) observe(wanted[k], predictions[k]);
+      calibration->tell(k, predictions[k]);
+    }
+  }
+  return calibration->result();
 }
 
 Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, const CalibrationSettings& settings,

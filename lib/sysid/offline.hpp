@@ -42,10 +42,14 @@ struct OfflineCalibration {
 /// Called after every simulation with the share done (0..1) and the present step.
 using ProgressCallback = std::function<void(double, std::string_view)>;
 
+/// Called with every evaluation and its predictions, one per item, before measurement-side extensions.
+using EvaluationObserver = std::function<void(const WantedEvaluation&, const std::vector<Prediction>&)>;
+
 /// Runs a calibration of designs (FitTarget::microstructures) or of base materials one by one (FitTarget::base) to its
 /// end.
 Calibrated run_calibration(const std::vector<measurement::Replicates>& measured, const CalibrationSettings& settings,
-                           LocalSimulator& simulator, const ProgressCallback& progress = {});
+                           LocalSimulator& simulator, const ProgressCallback& progress = {},
+                           const EvaluationObserver& observe = {});
 
 /// Calibrates on smaller specimens (`cheaper`, with the discretisation floor of its fidelity), and takes the result as
 /// initial guesses of the real calibration: its parameters, and draws of what it left possible. Small specimens find

@@ -166,15 +166,15 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::calibrate_on(runtime::Outputs& outputs) {
-  if (!fitting_->finished()) {
+  if (!fitting_->calibration().finished()) {
     return ask({.label = label("c"),
-                .wanted = fitting_->wanted(),
+                .wanted = fitting_->calibration().wanted(),
                 .measured = fitting_->measured(),
                 .fidelity = scenario_.fidelity},
                outputs);
   }
-  families_.back().parameters = fitting_->result().parameters;
-  families_.back().simulations = fitting_->result().simulations;
+  families_.back().parameters = fitting_->calibration().result().parameters;
+  families_.back().simulations = fitting_->calibration().result().simulations;
   fitting_.reset();
   sample(outputs);
 }
@@ -303,6 +303,6 @@ std::string FamilyStage::phase() const {
   }
 }
 
-double FamilyStage::progress() const { return fitting_ ? fitting_->progress() : -1.0; }
+double FamilyStage::progress() const { return fitting_ ? fitting_->calibration().progress() : -1.0; }
 
 }  // namespace nacre::validation_agent

@@ -267,7 +267,7 @@ runtime::Status ValidationCore::status() const {
       break;
     case Phase::calibrating:
       status.phase = extending_ ? "calibrating the extended model" : "calibrating";
-      status.progress = fitting_->progress();
+      status.progress = fitting_->calibration().progress();
       break;
     case Phase::diagnosing:
       status.phase = "waiting for the diagnosis";

@@ -175,12 +175,12 @@ void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid:
 }
 
 void ValidationCore::calibrate_on() {
-  if (fitting_->finished()) return finish_calibration();
-  ask_farm(extending_ ? "x" : "c", fitting_->wanted(), fitting_->measured());
+  if (fitting_->calibration().finished()) return finish_calibration();
+  ask_farm(extending_ ? "x" : "c", fitting_->calibration().wanted(), fitting_->measured());
 }
 
 void ValidationCore::finish_calibration() {
-  const sysid::Calibrated result = fitting_->result();
+  const sysid::Calibrated result = fitting_->calibration().result();
   fitting_.reset();
   simulations_ += result.simulations;
   if (extending_) return finish_trial(result);
