@@ -111,6 +111,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--warm", options.trials.warm, "Trials of tabulated moduli at three temperatures")
       ->capture_default_str();
+  app.add_option("--fracture-nulls", options.trials.fracture_nulls, "Trials of fracture tests with nothing hidden")
+      ->capture_default_str();
+  app.add_option("--fracture-seeds", options.trials.fracture_seeds, "Trials of each effect on fracture, and size")
+      ->capture_default_str();
   app.add_option("--distorted", options.trials.distorted, "Trials of moduli that a smooth law distorts")
       ->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();

@@ -35,6 +35,7 @@ namespace lab = laboratory;
 using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
+constexpr int kBrokenDesigns = 2, kBrokenLayouts = 24;  ///< of kind `fracture`
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
 /// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between has no signature in the shape
@@ -46,10 +47,12 @@ constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
 /// Whether rate and batch change together: all fast coupons are of the second batch, all slow ones of the first.
 /// Layouts that are neither turned nor accompanied by coupons.
 bool is_upright(const BlindTrial& trial) { return trial.kind == "alike" || trial.kind == "distorted"; }
+bool is_broken(const BlindTrial& trial) { return trial.kind == "fracture"; }
 bool is_pair(const BlindTrial& trial) { return trial.kind == "pair" || trial.kind == "resolved"; }
 
 lab::ReplicateNoise noise_of(const BlindTrial& trial) {
   const double factor = trial.noisy ? 2.0 : 1.0;
+  if (is_broken(trial)) return {};  // specimens differ by themselves
   return {.modulus = 0.01 * factor, .toughness = 0.04 * factor, .strain = 0.01 * factor};
 }
 
@@ -139,6 +142,7 @@ Specimens without_fractures(Specimens specimens) {
 /// Replicate i of a trial. Of two machines every second replicate is tested on each, and every batch on both.
 lab::Replicate replicate_of(const BlindTrial& trial, const measurement::SpecimenRecord& planned, std::size_t i) {
   lab::Replicate replicate{planned.specimen, planned.batch, planned.print_order};
+  replicate.number = static_cast<int>(i % kReplicates) + 1;
   if (trial.kind != "machines") return replicate;
   replicate.on_second_machine = (i % kReplicates + i / kReplicates) % 2 == 1;
   replicate.machine = replicate.on_second_machine ? "second" : "first";
@@ -196,7 +200,7 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
 /// with it alone and with nothing. Of known effects the nearest rival too.
 std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const lab::Truth& truth,
                        const std::vector<lab::Experiment>& experiments, const Specimens& planned) {
-  if (trial.hidden.empty()) return {};
+  if (trial.hidden.empty() || is_broken(trial)) return {};
   const auto shown = [&](std::span<const std::string> names) {
     const lab::Truth hiding = hiding_only(truth, names);
     return without_scatter(trial, hiding, experiments, responses_of(hiding, experiments), planned);
@@ -266,6 +270,16 @@ std::vector<lab::Experiment> tabulated_moduli(const BlindTrial& trial, tester::F
   return experiments;
 }
 
+/// Modulus and fracture of each of 24 layouts, upright.
+std::vector<lab::Experiment> broken_layouts(const BlindTrial& trial, tester::Fidelity fidelity) {
+  RandomStream random(trial.seed % kBrokenDesigns, "blind trials/broken layouts");
+  std::vector<lab::Experiment> experiments;
+  for (const pattern::Pattern& each : pattern::stratified_patterns(kBrokenLayouts, random))
+    for (const TestKind test : {TestKind::modulus, TestKind::toughness})
+      experiments.push_back({.design = pattern::Design(each), .test = test, .conditions = {}, .fidelity = fidelity});
+  return experiments;
+}
+
 }  // namespace
 
 std::vector<BlindTrial> all_trials(const TrialOptions& options) {
@@ -321,6 +335,13 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
   add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
   add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);
+  for (int i = 0; i < options.fracture_nulls; ++i) add("fracture", "nothing", {}, true, false);
+  const std::vector<std::string> of_fracture = {"progressive_damage", "tension_only_failure", "strength_scatter",
+                                                "blunt_notch",        "residual_strain",      "interface_anisotropy",
+                                                "rigid_yield",        "soft_stiffening"};
+  for (int i = 0; i < options.fracture_seeds; ++i)
+    for (const std::string& name : of_fracture)
+      for (const bool large : {true, false}) add("fracture", name, {name}, large, false);
   return trials;
 }
 
@@ -333,6 +354,10 @@ lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
                    .coupons = lab::draw_coupon_ratios(trial.seed),
                    .toughness = lab::draw_toughness_parameters(trial.seed),
                    .effects = {}};
+  if (is_broken(trial)) {
+    const lab::Truth drawn = lab::draw_truth(trial.seed, options.fidelity);
+    truth.toughness = drawn.toughness, truth.criterion = drawn.criterion, truth.strength_cv = drawn.strength_cv;
+  }
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
     truth.effects.*kind.value = hidden_value(trial, kind);
@@ -345,6 +370,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
   if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
   if (trial.kind == "loops") return unloaded_coupons(options.fidelity);
   if (is_tabulated(trial)) return tabulated_moduli(trial, options.fidelity);
+  if (is_broken(trial)) return broken_layouts(trial, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
@@ -403,7 +429,8 @@ void diagnose(const TrialOptions& options, const fs::path& folder) {
   const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
       fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
-                  (folder / "set").string(), tester::to_string(options.fidelity), options.fracture ? "--fracture" : "",
+                  (folder / "set").string(), tester::to_string(options.fidelity),
+                  options.fracture || folder.filename().string().starts_with("fracture-") ? "--fracture" : "",
                   (folder / "store").string(), result, (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

@@ -16,7 +16,7 @@ namespace nacre::blind_trials {
 struct BlindTrial {
   std::string name;  ///< unique, a file name
   std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even, distorted,
-                     ///< homogeneous, loops, machines, spectrum, warm
+                     ///< homogeneous, loops, machines, spectrum, warm, fracture
   std::uint64_t seed = 1;
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
@@ -28,6 +28,7 @@ struct TrialOptions {
   bool fracture = false;  ///< toughness specimens besides the moduli
   int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15, distorted = 60, homogeneous = 50;
   int loops = 40, machines = 30, spectra = 40, warm = 30;
+  int fracture_nulls = 20, fracture_seeds = 3;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
@@ -48,7 +49,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options);
 /// way, at three rates: a phase that flows, relaxation in two forms, or nothing. Kind `machines`: the same on two
 /// machines, of which one has a compliance or a gain of its own, or nothing; `spectrum`: of two materials over seven
 /// decades, under three rate laws, or nothing; `warm`: at three temperatures that shift the rate, under two rate laws,
-/// or nothing.
+/// or nothing. Kind `fracture`: moduli and fracture tests of one of two designs of 24 layouts, whose replicates are
+/// specimens, under effects that act on fracture, or nothing.
 std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// The truth of a trial's laboratory.

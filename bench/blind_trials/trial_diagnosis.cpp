@@ -38,6 +38,14 @@ SealedEffect hidden_effect(const toml::table& truth, const std::string& name) {
   return hidden;
 }
 
+/// The signal-to-noise ratio of an effect as the diagnosis gives it: at its fitted size. Fracture tests have no other:
+/// what the base imitates is known by an emulator only.
+double seen_signal(const nlohmann::json& diagnosis, const std::string& name) {
+  for (const auto& candidate : diagnosis["candidates"])
+    if (candidate["name"] == name) return candidate.value("signal_to_noise", 0.0);
+  return 0.0;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -82,7 +90,10 @@ TrialDiagnosis open_trial(const BlindTrial& trial, const std::string& commit, co
                         .named = {},
                         .possible = diagnosis["possible"],
                         .p_misfit = diagnosis["p_misfit"]};
-  for (const std::string& name : trial.hidden) result.hidden.push_back(hidden_effect(truth, name));
+  for (const std::string& name : trial.hidden) {
+    result.hidden.push_back(hidden_effect(truth, name));
+    if (trial.kind == "fracture") result.hidden.back().snr = seen_signal(diagnosis, name);
+  }
   for (const auto& effect : diagnosis["effects"])
     result.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});
   if (diagnosis["gain"].is_object()) result.gain = diagnosis["gain"]["relative_reduction"];
