@@ -12,7 +12,7 @@ try:
     import matplotlib.pyplot as plt
 except ImportError:
     plt = None
-fidelity = sys.argv[1] if len(sys.argv) > 1 and sys.argv[1] in ("full", "preview", "tiny") else "preview"
+fidelity = sys.argv[1] if len(sys.argv) > 1 and sys.argv[1] in ("full", "fine", "preview", "tiny") else "preview"
 
 # %% [markdown]
 # A search: which patterns are stiff and tough? 60 simulations, a minute on two cores.

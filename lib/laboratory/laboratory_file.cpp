@@ -214,7 +214,7 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
   truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, seed));
   const std::string_view fidelity_name = top.text("fidelity", "full");
   const Result<tester::Fidelity> fidelity = tester::fidelity_from_string(fidelity_name);
-  if (!fidelity) throw fault_at(source, *document.get("fidelity"), "fidelity", "tiny, preview or full");
+  if (!fidelity) throw fault_at(source, *document.get("fidelity"), "fidelity", "tiny, preview, full or fine");
   truth.fidelity = *fidelity;
   truth.replicates = top.integer("replicates", 1, 1000, truth.replicates);
   Section noise(top.table("noise"), source, "noise.");

@@ -28,6 +28,9 @@ std::string fidelity_words(tester::Fidelity fidelity) {
           "quiet");
     case tester::Fidelity::full:
       return paragraph("Fidelity <code>full</code>: the specimens of the thesis.", "quiet");
+    case tester::Fidelity::fine:
+      return paragraph("Fidelity <code>fine</code>: the specimens of the thesis on elements of half the size.",
+                       "quiet");
   }
   return "";
 }

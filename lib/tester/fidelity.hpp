@@ -18,6 +18,10 @@ SpecimenUnits toughness_units(Fidelity fidelity);
 /// better than a smaller specimen that costs the same (docs/studies/fidelity.md).
 double loading_rate_scale(Fidelity fidelity);
 
+/// Elements along one side of a thesis element (half a pixel): 2 in fine, else 1. Discretisation::refinement comes on
+/// top.
+int refinement_of(Fidelity fidelity);
+
 /// The modulus specimen: 2 x 1 (Figure 2-5B), one in tiny.
 SpecimenUnits modulus_units(Fidelity fidelity);
 

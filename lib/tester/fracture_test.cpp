@@ -10,6 +10,7 @@
 #include "tester/film_strains.hpp"
 #include "tester/fracture_watch.hpp"
 #include "tester/notch.hpp"
+#include "tester/refinement.hpp"
 #include "tester/strength_field.hpp"
 #include "tester/strength_scatter.hpp"
 #include "thesis/constants.hpp"
@@ -95,18 +96,20 @@ std::string specimen_name(const Simulation& simulation) {
 
 FractureTest fracture_test(const Simulation& simulation, const Discretisation& discretisation) {
   const SpecimenUnits units = toughness_units(simulation.fidelity);
+  const int own_refinement = refinement_of(simulation.fidelity),
+            refinement = own_refinement * discretisation.refinement;
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
-                       units.x, units.y, discretisation.refinement);
-  set_criterion(test.grid, discretisation.refinement, simulation.parameters.criterion);
-  draw_strengths(test.grid, discretisation.refinement, simulation);
+                       units.x, units.y, refinement);
+  set_criterion(test.grid, refinement, simulation.parameters.criterion);
+  draw_strengths(test.grid, refinement, simulation);
   const material::Extensions& extensions = simulation.parameters.extensions;
-  scatter_strength(test.grid, discretisation.refinement, material::extension_value(extensions, "strength_scatter"),
+  scatter_strength(test.grid, refinement, material::extension_value(extensions, "strength_scatter"),
                    specimen_name(simulation));
-  cut_notch(test.grid, discretisation.refinement);
-  round_notch_root(test.grid, discretisation.refinement, material::extension_value(extensions, "blunt_notch"));
+  cut_notch(test.grid, refinement);
+  round_notch_root(test.grid, refinement, material::extension_value(extensions, "blunt_notch"));
   const bool pure_soft = simulation.design.rigid_fraction() == 0.0;
-  const double gamma_per_s = simulation.parameters.toughness.gamma_per_s;
+  const double gamma_per_s = refined(simulation.parameters, own_refinement).toughness.gamma_per_s;
   const bool capped = simulation.fidelity == Fidelity::full && !pure_soft;
   test.settings = {.density_kg_per_m3 = thesis::kDensity,
                    .time_step_s = time_step_s(test.grid, gamma_per_s, capped) * discretisation.time_step_scale,

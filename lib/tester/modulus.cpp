@@ -31,8 +31,9 @@ Result<ModulusResult> test_modulus(const Simulation& simulation, const Discretis
     return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation) * at_rate};
 
   const SpecimenUnits units = modulus_units(simulation.fidelity);
-  const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,
-                                  AssemblyTarget::modulus, units.x, units.y, discretisation.refinement);
+  const fem::Grid grid =
+      assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::modulus, units.x,
+               units.y, refinement_of(simulation.fidelity) * discretisation.refinement);
   if (discretisation.explicit_modulus)
     return explicit_modulus(grid, simulation.parameters.modulus.gamma_per_s).transform([&](double modulus_pa) {
       return ModulusResult{modulus_pa * at_rate};

@@ -13,7 +13,8 @@ namespace {
 
 fem::Grid grid_of(const Simulation& simulation, const material::ParameterSet& parameters) {
   const SpecimenUnits units = modulus_units(simulation.fidelity);
-  return assemble(simulation.design, parameters, simulation.conditions, AssemblyTarget::modulus, units.x, units.y);
+  return assemble(simulation.design, parameters, simulation.conditions, AssemblyTarget::modulus, units.x, units.y,
+                  refinement_of(simulation.fidelity));
 }
 
 double at_rate(const Simulation& simulation, const material::ParameterSet& parameters) {

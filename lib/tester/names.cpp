@@ -5,8 +5,8 @@
 namespace nacre::tester {
 namespace {
 
-constexpr NameTable<Fidelity, 3> kFidelities = {
-    {{Fidelity::tiny, "tiny"}, {Fidelity::preview, "preview"}, {Fidelity::full, "full"}}};
+constexpr NameTable<Fidelity, 4> kFidelities = {
+    {{Fidelity::tiny, "tiny"}, {Fidelity::preview, "preview"}, {Fidelity::full, "full"}, {Fidelity::fine, "fine"}}};
 constexpr NameTable<TestKind, 3> kTestKinds = {
     {{TestKind::modulus, "modulus"}, {TestKind::toughness, "toughness"}, {TestKind::tensile, "tensile"}}};
 constexpr NameTable<EndReason, 4> kEndReasons = {{{EndReason::stress_drop, "stress_drop"},

@@ -12,6 +12,7 @@ enum class Fidelity {
   tiny,     ///< one unit; for tests of processes and faults; marked in reports
   preview,  ///< thesis geometry pulled twice as fast; for searches, demonstrations and early rounds
   full,     ///< thesis geometry: toughness 5 x 4 units (200 x 160 elements), modulus 2 x 1 units (80 x 40)
+  fine,     ///< full on elements of half the size, quarter pixels: the reference that others are measured against
 };
 std::string_view to_string(Fidelity fidelity);
 Result<Fidelity> fidelity_from_string(std::string_view name);

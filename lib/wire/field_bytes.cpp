@@ -15,6 +15,7 @@ using material::CriterionKind, tester::Fidelity, tester::TestKind;
 static_assert(static_cast<int>(Fidelity::tiny) == fidelity_t::TINY);
 static_assert(static_cast<int>(Fidelity::preview) == fidelity_t::PREVIEW);
 static_assert(static_cast<int>(Fidelity::full) == fidelity_t::FULL);
+static_assert(static_cast<int>(Fidelity::fine) == fidelity_t::FINE);
 static_assert(static_cast<int>(TestKind::modulus) == test_kind_t::MODULUS);
 static_assert(static_cast<int>(TestKind::toughness) == test_kind_t::TOUGHNESS);
 static_assert(static_cast<int>(TestKind::tensile) == test_kind_t::TENSILE);
@@ -150,7 +151,7 @@ std::string FieldReader::get_value(tester::Loading& value) {
 }
 
 Result<tester::Fidelity> fidelity_of_code(std::int64_t code) {
-  if (code < 0 || code > fidelity_t::FULL) return fail("there is no {}", code);
+  if (code < 0 || code > fidelity_t::FINE) return fail("there is no {}", code);
   return static_cast<tester::Fidelity>(code);
 }
 

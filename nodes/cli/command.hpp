@@ -39,12 +39,12 @@ CLI::Option* add_seed(CLI::App& command, Seed& seed, const std::string& words) {
   return command.add_option("--seed", seed, words)->check(range);
 }
 
-/// `--fidelity` with what the three are; `otherwise`, when it has no default of its own, tells what is taken then.
+/// `--fidelity` with what they are; `otherwise`, when it has no default of its own, tells what is taken then.
 inline CLI::Option* add_fidelity(CLI::App& command, std::string& fidelity, const std::string& otherwise = "") {
   return command.add_option("--fidelity", fidelity,
-                            "How specimens are simulated: full (as in the thesis), preview (the same pulled twice as "
-                            "fast) or tiny (one unit, "
-                            "for tests of the program; its numbers mean nothing)" +
+                            "How specimens are simulated: full (as in the thesis), fine (on elements of half the "
+                            "size), preview (pulled twice as fast) or tiny (one unit, for tests of the program; its "
+                            "numbers mean nothing)" +
                                 otherwise);
 }
 

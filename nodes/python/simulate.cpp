@@ -106,7 +106,8 @@ patterns: one design, a list of them, or a numpy array of n x 20 x 20. A design 
     published pattern ("a", "b"), or an array of 20 x 20, 0 soft and 1 rigid, row 0 at the top.
 params: path of a parameter file or a dict of its form (see read_parameters); None: the built-in parameters.
 test: "modulus", "toughness" or "both".
-fidelity: "full" (as in the thesis), "preview" (the same pulled twice as fast) or "tiny" (its numbers mean nothing).
+fidelity: "full" (as in the thesis), "fine" (on elements of half the size), "preview" (pulled twice as fast) or
+"tiny" (its numbers mean nothing).
 specimens: 1 to 1000; T is the mean over so many specimens of each pattern. None: 8, of a model without variation 1.
 strength_cv: variation of failure energy between regions of half a pixel: 0, or 0.02 to 0.4; None: the model's.
 criterion: when elements fail: "element", "neighbourhood" or "crack_band"; None: the model's.

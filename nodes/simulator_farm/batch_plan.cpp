@@ -15,6 +15,8 @@ double first_guess_s(tester::TestKind test, tester::Fidelity fidelity) {
       return 1.0;
     case tester::Fidelity::full:
       return 2.0;
+    case tester::Fidelity::fine:
+      return 16.0;
   }
   return 2.0;
 }

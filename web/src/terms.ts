@@ -14,7 +14,10 @@ export const AREA = "GPa\u00a0MPa";
 export const TERMS = {
   run: term("run", "One played game."),
   scenario: term("scenario", "The settings of the game."),
-  fidelity: term("fidelity", "How specimens are simulated: full as in the thesis, preview faster, tiny to try things."),
+  fidelity: term(
+    "fidelity",
+    "How specimens are simulated: full as in the thesis, fine on smaller elements, preview faster, tiny to try things.",
+  ),
   runState: term("state", "playing, finished, stopped before its end, or what cannot be read."),
   roundsDone: term("rounds", "The last complete round, of those that the scenario plans."),
 

@@ -123,7 +123,8 @@ TEST(LaboratoryFile, AnEffectWithoutValueOrNamedDrawIsDrawnFromTheSeed) {
 TEST(LaboratoryFile, RefusalsNameFileLineKeyAndWhatWasExpected) {
   EXPECT_THAT(refusal("seed = 1\nreplicate = 3\n"), HasSubstr("lab.toml:2:13: replicate = 3: expected one of"));
   EXPECT_THAT(refusal("seed = -1\n"), HasSubstr(":1:8: seed = -1: expected a whole number from 0"));
-  EXPECT_THAT(refusal("fidelity = \"fine\"\n"), HasSubstr(":1:12: fidelity = 'fine': expected tiny, preview or full"));
+  EXPECT_THAT(refusal("fidelity = \"huge\"\n"),
+              HasSubstr(":1:12: fidelity = 'huge': expected tiny, preview, full or fine"));
   EXPECT_THAT(refusal("[noise]\nmodulus = 2\n"),
               HasSubstr(":2:11: noise.modulus = 2: expected a number from 0 to 0.5"));
   EXPECT_THAT(refusal("[noise]\nmodulus = \"much\"\n"), HasSubstr(":2:11: noise.modulus = 'much': expected a number"));

@@ -148,7 +148,10 @@ TEST(DiagnosisPage, TooFewDataClaimNothing) {
 }
 
 diagnosis::MeasuredMean mean_at(double rate_per_s, double mean_pa) {
-  diagnosis::MeasuredMean mean{.design = "rigid", .pieces = 3, .mean_pa = mean_pa};
+  diagnosis::MeasuredMean mean;
+  mean.design = "rigid";
+  mean.pieces = 3;
+  mean.mean_pa = mean_pa;
   mean.conditions.strain_rate_per_s = rate_per_s;
   mean.low_pa = 0.9 * mean_pa;
   mean.high_pa = 1.1 * mean_pa;

@@ -31,7 +31,8 @@ wire::ProposedDesign proposed(int number, double modulus_pa, double toughness_pa
 /// One specimen for each property.
 void measure(RunRecord& run, int round, int number, double modulus_pa, double toughness_pa) {
   for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness}) {
-    MeasuredSpecimen specimen{.round = round, .measured_in = round, .record = {}};
+    MeasuredSpecimen specimen;
+    specimen.round = specimen.measured_in = round;
     specimen.record.specimen = fmt::format("{}-{}", number, tester::to_string(test));
     specimen.record.design = pattern_of(number);
     specimen.record.test = test;

@@ -28,8 +28,9 @@ class LogInPieces : public testing::Test {
   /// A piece of records "a", "b", ...; a later one with `repeated` before them.
   void write(int number, const std::vector<std::string>& channels, const std::vector<std::string>& repeated = {}) {
     LogWriter writer(piece_of(log_, number));
-    if (number > 1)
+    if (number > 1) {
       ASSERT_TRUE(writer.append(1, kPieceChannel, pack({std::to_string(number), std::to_string(repeated.size())})));
+    }
     for (const auto* list : {&repeated, &channels})
       for (const std::string& channel : *list) ASSERT_TRUE(writer.append(1, channel, "bytes"));
   }

@@ -17,7 +17,7 @@ TEST(Names, ComeBackAsTheyWent) {
 TEST(Names, UnknownOnesAreAnsweredWithTheKnown) {
   const auto fidelity = fidelity_from_string("huge");
   ASSERT_FALSE(fidelity);
-  EXPECT_EQ(fidelity.error().message, "fidelity 'huge': expected one of tiny, preview, full");
+  EXPECT_EQ(fidelity.error().message, "fidelity 'huge': expected one of tiny, preview, full, fine");
   EXPECT_FALSE(test_kind_from_string(""));
 }
 
