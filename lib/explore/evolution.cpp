@@ -57,8 +57,9 @@ class Evolution final : public Search {
     return ledger_.hand_out();
   }
 
-  void tell(std::span<const std::optional<optimize::Performance>> performances) override {
-    join(ledger_.record(performances));
+  void tell(std::span<const std::optional<optimize::Performance>> performances,
+            std::span<const Sampling> samplings) override {
+    join(ledger_.record(performances, samplings));
   }
 
   const std::vector<Evaluated>& evaluated() const override { return ledger_.evaluated(); }

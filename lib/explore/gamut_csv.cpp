@@ -19,6 +19,8 @@ namespace nacre::explore {
 namespace {
 
 constexpr std::string_view kHeader = "index,pattern,rigid_fraction,modulus_pa,toughness_pa";
+/// Behind them where T is the mean over specimens.
+constexpr std::string_view kSamplingHeader = ",toughness_se_pa,specimens";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 /// The line that is read, for error messages.
@@ -48,6 +50,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 /// Positions of the columns that are read.
 struct GamutColumns {
   std::size_t count = 0, pattern = 0, modulus = 0, toughness = 0;
+  std::optional<std::size_t> toughness_se = {}, specimens = {};
 };
 
 GamutColumns columns_of(std::string_view header, std::string_view source) {
@@ -59,12 +62,21 @@ GamutColumns columns_of(std::string_view header, std::string_view source) {
       if (found) throw InputError::format("{}: line 1, column {}: a second column {}", source, i + 1, name);
       found = i;
     }
+    return found;
+  };
+  const auto required = [&](std::string_view name) {
+    const std::optional<std::size_t> found = position(name);
     if (!found)
       throw InputError::format("{}: line 1: no column {}, expected {}{}", source, name, kHeader,
                                other_separator(header));
     return *found;
   };
-  return {names.size(), position("pattern"), position("modulus_pa"), position("toughness_pa")};
+  return {names.size(),
+          required("pattern"),
+          required("modulus_pa"),
+          required("toughness_pa"),
+          position("toughness_se_pa"),
+          position("specimens")};
 }
 
 double quantity(const std::vector<std::string_view>& fields, std::size_t column, std::string_view name,
@@ -78,6 +90,18 @@ double quantity(const std::vector<std::string_view>& fields, std::size_t column,
   return value;
 }
 
+Sampling sampling_of(const std::vector<std::string_view>& fields, const GamutColumns& columns, const CsvPlace& place) {
+  Sampling sampling;
+  if (columns.toughness_se)
+    sampling.toughness_se_pa = quantity(fields, *columns.toughness_se, "toughness_se_pa", place);
+  if (!columns.specimens) return sampling;
+  const std::string_view text = fields[*columns.specimens];
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), sampling.specimens);
+  if (error != std::errc{} || end != text.data() + text.size() || sampling.specimens < 1)
+    throw place.error(*columns.specimens, "specimens", text, "a whole number from 1");
+  return sampling;
+}
+
 pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::size_t column, const CsvPlace& place) {
   const Result<pattern::Pattern> pattern = pattern::pattern_from_key(fields[column]);
   if (!pattern) throw place.error(column, "pattern", fields[column], "the key of a pattern, 14 lower-case hex digits");
@@ -87,11 +111,15 @@ pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::si
 }  // namespace
 
 std::string to_csv(std::span<const Evaluated> gamut) {
-  std::string csv = fmt::format("{}\n", kHeader);
+  const bool has_sampling =
+      std::ranges::any_of(gamut, [](const Evaluated& sample) { return sample.sampling != Sampling{}; });
+  std::string csv = fmt::format("{}{}\n", kHeader, has_sampling ? kSamplingHeader : "");
   for (std::size_t i = 0; i < gamut.size(); ++i) {
-    const auto& [pattern, performance] = gamut[i];
-    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", i, pattern.key(), pattern.rigid_fraction(),
+    const auto& [pattern, performance, sampling] = gamut[i];
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}", i, pattern.key(), pattern.rigid_fraction(),
                    performance.modulus_pa, performance.toughness_pa);
+    if (has_sampling) fmt::format_to(std::back_inserter(csv), ",{},{}", sampling.toughness_se_pa, sampling.specimens);
+    csv += '\n';
   }
   return csv;
 }
@@ -126,7 +154,8 @@ std::vector<Evaluated> gamut_from_csv(std::string_view text, std::string_view so
     }
     gamut.push_back({pattern,
                      {quantity(fields, columns.modulus, "modulus_pa", place),
-                      quantity(fields, columns.toughness, "toughness_pa", place)}});
+                      quantity(fields, columns.toughness, "toughness_pa", place)},
+                     sampling_of(fields, columns, place)});
   }
   return gamut;
 }

@@ -1,7 +1,9 @@
 #include "explore/learned.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -11,6 +13,7 @@
 #include "explore/improvement.hpp"
 #include "explore/model_search.hpp"
 #include "explore/predictors.hpp"
+#include "explore/specimen_scatter.hpp"
 #include "explore/surrogate_search.hpp"
 #include "pattern/random_pattern.hpp"
 #include "surrogate/network.hpp"
@@ -57,6 +60,21 @@ std::vector<pattern::Pattern> barred_start(const BatchRequest& batch_request) {
   return start;
 }
 
+/// The best patterns by rank, to be tested a second time, until some were: without them no scatter is known. None where
+/// one specimen of each is enough.
+std::vector<pattern::Pattern> first_repeats(const BatchRequest& batch_request) {
+  constexpr int kFewest = 10;
+  const auto tested_once = [](const Evaluated& sample) { return sample.sampling.specimens == 1; };
+  const std::vector<Evaluated>& evaluated = batch_request.evaluated;
+  const auto repeated = static_cast<int>(evaluated.size() - std::ranges::count_if(evaluated, tested_once));
+  if (batch_request.settings.learned.specimens == 1 || repeated >= kFewest) return {};
+  std::vector<Evaluated> once;
+  std::ranges::copy_if(best_by_rank(evaluated, evaluated.size()), std::back_inserter(once), tested_once);
+  once.resize(std::min(
+      {once.size(), static_cast<std::size_t>(kFewest - repeated), static_cast<std::size_t>(batch_request.count)}));
+  return patterns_of(once);
+}
+
 /// All that a search on the predictors visits, and patterns with bars, which that search starts from too.
 std::vector<Evaluated> candidates_for(const BatchRequest& batch_request, const Predictors& predictors) {
   const LearnedSettings& learned = batch_request.settings.learned;
@@ -85,16 +103,36 @@ struct Finalists {
   std::vector<Belief> beliefs;
 };
 
-/// Those whose own improvement is expected to be largest.
+/// The first finalists in an order of patterns, none nearer than LearnedSettings::apart flips to an earlier one; where
+/// these are less than a batch, others behind them.
+std::vector<std::size_t> picked_apart(std::span<const std::pair<double, std::size_t>> order,
+                                      std::span<const pattern::Pattern> patterns, const BatchRequest& batch_request) {
+  const auto fewest = static_cast<std::size_t>(batch_request.count), most = std::max(kFinalists, fewest);
+  std::vector<std::size_t> picked, near;
+  for (const auto& [value, i] : order) {
+    if (picked.size() == most) break;
+    const bool is_near = std::ranges::any_of(picked, [&](std::size_t earlier) {
+      return std::popcount(patterns[i].bits() ^ patterns[earlier].bits()) < batch_request.settings.learned.apart;
+    });
+    (is_near ? near : picked).push_back(i);
+  }
+  near.resize(std::min(near.size(), std::max(fewest, picked.size()) - picked.size()));
+  picked.insert(picked.end(), near.begin(), near.end());
+  return picked;
+}
+
+/// Those whose own improvement is expected to be largest. `scatter`: of specimens; none: a test settles all.
 Finalists finalists_of(const Predictors& predictors, std::span<const pattern::Pattern> patterns,
-                       std::span<const optimize::Performance> front, std::size_t count) {
-  const std::vector<Belief> beliefs = beliefs_about(predictors, patterns);
+                       std::span<const optimize::Performance> front, const BatchRequest& batch_request,
+                       const SpecimenScatter* scatter) {
+  std::vector<Belief> beliefs = beliefs_about(predictors, patterns);
+  if (scatter != nullptr)
+    for (std::size_t i = 0; i < patterns.size(); ++i) beliefs[i].noise_variance = scatter->variance_at(patterns[i]);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < patterns.size(); ++i) order.emplace_back(-expected_improvement(beliefs[i], front), i);
   std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), count));
   Finalists best;
-  for (const auto& [improvement, i] : order) {
+  for (const std::size_t i : picked_apart(order, patterns, batch_request)) {
     best.patterns.push_back(patterns[i]);
     best.beliefs.push_back(beliefs[i]);
   }
@@ -108,19 +146,36 @@ void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
     if (moduli[i] && *moduli[i] > 0.0) finalists.beliefs[i].modulus = {std::log(*moduli[i]), 0.0};
 }
 
+/// Adds the best of the evaluated patterns of which a further specimen may be tested, with their moduli known.
+void add_known(Finalists& finalists, const BatchRequest& batch_request, const SpecimenScatter& scatter) {
+  constexpr std::size_t kMostAgain = 60;
+  for (const Evaluated& estimate : best_by_rank(batch_request.evaluated, kMostAgain)) {
+    if (estimate.sampling.specimens >= batch_request.settings.learned.specimens) continue;
+    const auto& [modulus_pa, toughness_pa] = estimate.performance;
+    if (modulus_pa <= 0.0 || toughness_pa <= 0.0) continue;
+    const double deviation = estimate.sampling.toughness_se_pa / toughness_pa;
+    finalists.patterns.push_back(estimate.pattern);
+    finalists.beliefs.push_back({.modulus = {std::log(modulus_pa), 0.0},
+                                 .toughness = {std::log(toughness_pa) - 0.5 * deviation * deviation, deviation},
+                                 .noise_variance = scatter.variance_at(estimate.pattern),
+                                 .present = estimate.performance});
+  }
+}
+
+/// `scatter`: of specimens, where the noise is known; evaluated samples are then estimates.
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
-                                                    const BatchRequest& batch_request) {
-  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(batch_request.evaluated));
+                                                    const BatchRequest& batch_request, const SpecimenScatter* scatter) {
+  const std::vector<optimize::Performance> points = performances_of(batch_request.evaluated);
   const auto count = static_cast<std::size_t>(batch_request.count);
   Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, std::max(kShortList, count))),
-                                     front, std::max(kFinalists, count));
+                                     optimize::pareto_front(points), batch_request, scatter);
+  if (batch_request.settings.mechanics.modulus_of) know_moduli(finalists, batch_request.settings.mechanics.modulus_of);
+  if (scatter != nullptr) add_known(finalists, batch_request, *scatter);
   SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
-  if (batch_request.settings.mechanics.modulus_of)
-    know_moduli(finalists, batch_request.settings.mechanics.modulus_of);
-  else
+  if (!batch_request.settings.mechanics.modulus_of)
     shared.log_modulus = predictors.modulus->covariance(finalists.patterns);
   std::vector<pattern::Pattern> batch;
-  for (const std::size_t i : best_improvements(finalists.beliefs, front, batch_request.count, std::move(shared)))
+  for (const std::size_t i : best_improvements(finalists.beliefs, points, batch_request.count, std::move(shared)))
     batch.push_back(finalists.patterns[i]);
   return batch;
 }
@@ -147,15 +202,22 @@ void check_learned(const LearnedSettings& settings) {
   check(settings.optimism >= 0.0 && settings.optimism <= 10.0, "optimism", settings.optimism, "0 to 10 deviations");
   check(settings.floor_deviations >= 0.0, "floor_deviations", settings.floor_deviations, "at least 0");
   check(settings.most_samples >= 10, "most_samples", settings.most_samples, "at least 10");
+  check(settings.apart >= 1 && settings.apart <= pattern::kFreePixels, "apart", settings.apart, "1 to 55 flips");
+  check(settings.specimens >= 1 && settings.specimens <= 100, "specimens", settings.specimens, "1 to 100");
+  const bool knows_noise = settings.predictor == "patches" && settings.choice == "improvement";
+  check(settings.specimens == 1 || knows_noise, "specimens", settings.specimens,
+        "1, or predictor = patches and choice = improvement");
 }
 
 std::string to_text(const LearnedSettings& settings) {
   return fmt::format(
       "predictor={} choice={} generations={} population={} optimism={} most_samples={} members={} warm_start={} "
-      "weight_decay={} dropout={} floor_deviations={} barred_start={} barred_candidates={}",
+      "weight_decay={} dropout={} floor_deviations={} barred_start={} barred_candidates={}{}{}",
       settings.predictor, settings.choice, settings.generations, settings.population, settings.optimism,
       settings.most_samples, settings.members, settings.warm_start, settings.weight_decay, settings.dropout,
-      settings.floor_deviations, settings.barred_start, settings.barred_candidates);
+      settings.floor_deviations, settings.barred_start, settings.barred_candidates,
+      settings.specimens > 1 ? fmt::format(" specimens={}", settings.specimens) : "",
+      settings.apart > 1 ? fmt::format(" apart={}", settings.apart) : "");
 }
 
 LearnedSettings thesis_learning() {
@@ -175,11 +237,17 @@ LearnedSettings thesis_learning() {
 std::vector<pattern::Pattern> learned_batch(const BatchRequest& batch_request) {
   const SearchSettings& settings = batch_request.settings;
   if (std::vector<pattern::Pattern> start = barred_start(batch_request); !start.empty()) return start;
+  if (std::vector<pattern::Pattern> again = first_repeats(batch_request); !again.empty()) return again;
   Predictors base;
   if (!settings.former.empty()) base = fit_predictors(settings.former, settings);
   const Predictors predictors = fit_predictors(batch_request.evaluated, settings, base);
-  const std::vector<Evaluated> candidates = candidates_for(batch_request, predictors);
-  if (settings.learned.choice == "improvement") return choose_by_improvement(predictors, candidates, batch_request);
+  BatchRequest believed = batch_request;
+  const bool knows_noise = is_noise_known(batch_request.evaluated, settings.learned);
+  if (knows_noise) believed.evaluated = estimated(predictors, batch_request.evaluated, settings.learned);
+  const std::vector<Evaluated> candidates = candidates_for(believed, predictors);
+  const SpecimenScatter scatter(batch_request.evaluated);
+  if (settings.learned.choice == "improvement")
+    return choose_by_improvement(predictors, candidates, believed, knows_noise ? &scatter : nullptr);
   return patterns_of(best_by_rank(candidates, batch_request.count));
 }
 

@@ -19,10 +19,14 @@ class Ledger {
   int room() const;
   /// Adds an unseen pattern to the batch.
   void add(const pattern::Pattern& pattern);
+  /// Adds an evaluated pattern to the batch: one more specimen of it is wanted.
+  void add_again(const pattern::Pattern& pattern);
   /// The batch is handed out; asserts that the last one was told.
   std::vector<pattern::Pattern> hand_out();
-  /// The performances of the last batch; asserts that there is one of this size. Returns the new samples.
-  std::span<const Evaluated> record(std::span<const std::optional<optimize::Performance>> performances);
+  /// What was told of the last batch (Search::tell); asserts that there is one of this size. Returns the new samples. A
+  /// further specimen enters into the mean of its pattern.
+  std::span<const Evaluated> record(std::span<const std::optional<optimize::Performance>> performances,
+                                    std::span<const Sampling> samplings = {});
   const std::vector<Evaluated>& evaluated() const { return evaluated_; }
   int asked() const { return asked_; }
 

@@ -36,21 +36,37 @@ class ModelSearch final : public Search {
 
   std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> batch) override {
     for (const pattern::Pattern& pattern : batch) {
-      if (ledger_.room() > 0 && !ledger_.seen(pattern)) ledger_.add(pattern);
+      if (ledger_.room() <= 0) break;
+      if (!ledger_.seen(pattern))
+        ledger_.add(pattern);
+      else if (may_be_tested_again(pattern))
+        ledger_.add_again(pattern);
     }
     return asked_ = ledger_.hand_out();
   }
 
-  void tell(std::span<const std::optional<optimize::Performance>> performances) override {
-    ledger_.record(performances);
+  void tell(std::span<const std::optional<optimize::Performance>> performances,
+            std::span<const Sampling> samplings) override {
+    ledger_.record(performances, samplings);
     for (std::size_t i = 0; i < asked_.size(); ++i) {
-      if (!performances[i]) lost_.push_back(asked_[i]);
+      if (!performances[i] && !is_evaluated(asked_[i])) lost_.push_back(asked_[i]);
     }
   }
 
   const std::vector<Evaluated>& evaluated() const override { return ledger_.evaluated(); }
 
  private:
+  std::vector<Evaluated>::const_iterator find(const pattern::Pattern& pattern) const {
+    return std::ranges::find(ledger_.evaluated(), pattern, &Evaluated::pattern);
+  }
+  bool is_evaluated(const pattern::Pattern& pattern) const { return find(pattern) != ledger_.evaluated().end(); }
+
+  bool may_be_tested_again(const pattern::Pattern& pattern) const {
+    if (settings_.algorithm != "learned" || settings_.learned.specimens <= 1) return false;
+    const auto known = find(pattern);
+    return known != ledger_.evaluated().end() && known->sampling.specimens < settings_.learned.specimens;
+  }
+
   /// Whether random patterns of the start are left.
   bool starting() const {
     return !std::all_of(start_.begin(), start_.end(), [this](const auto& pattern) { return ledger_.seen(pattern); });

@@ -5,8 +5,11 @@
 
 #include <Eigen/Dense>
 
+#include "base/square.hpp"
 #include "base/statistics.hpp"
+#include "explore/specimen_scatter.hpp"
 #include "explore/surrogate_search.hpp"
+#include "optimize/best_by_rank.hpp"
 #include "surrogate/network.hpp"
 #include "surrogate/patch_process.hpp"
 #include "thesis/constants.hpp"
@@ -25,6 +28,7 @@ constexpr std::size_t kFirstKernelSamples = 20;
 struct LogSamples {
   std::vector<pattern::Pattern> patterns;
   std::vector<double> log_modulus, log_toughness;
+  std::vector<double> noise_variances;  ///< of log_toughness; empty: not known
 };
 
 /// A parabola over the rigid fraction, by least squares to the first `deciding` values.
@@ -61,14 +65,22 @@ void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<d
   }
 }
 
-/// Toughness with the floor of the settings, which the first `deciding` samples lay.
-LogSamples logarithms(std::span<const Evaluated> samples, std::size_t deciding, const LearnedSettings& learned) {
+/// Toughness with the floor of the settings, which the first `deciding` samples lay. `scatter`, where the noise is
+/// known, gives its variance s^2; ln E[T] lies s^2/2 above the expectation of ln T.
+LogSamples logarithms(std::span<const Evaluated> samples, std::size_t deciding, const LearnedSettings& learned,
+                      const SpecimenScatter* scatter = nullptr) {
   constexpr double kLeast = 1.0;  // Pa: softer or weaker than anything that holds together
   LogSamples logs;
   for (const Evaluated& sample : samples) {
     logs.patterns.push_back(sample.pattern);
     logs.log_modulus.push_back(std::log(std::max(kLeast, sample.performance.modulus_pa)));
     logs.log_toughness.push_back(std::log(std::max(kLeast, sample.performance.toughness_pa)));
+  }
+  if (scatter != nullptr) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      logs.noise_variances.push_back(scatter->noise_of(samples[i]));
+      logs.log_toughness[i] += 0.5 * logs.noise_variances[i];
+    }
   }
   raise_to_floor(logs.patterns, logs.log_toughness, deciding, learned.floor_deviations);
   return logs;
@@ -167,16 +179,58 @@ Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettin
   // The samples that networks were trained on in full must not change, or they would be trained anew at every batch
   // (minutes).
   if (learned.predictor == "networks") return fit_networks(logarithms(samples, stage, learned), stage, settings, base);
-  const LogSamples all = logarithms(samples, samples.size(), learned);
+  const SpecimenScatter scatter(samples);
+  const SpecimenScatter* const known = is_noise_known(samples, learned) ? &scatter : nullptr;
+  const LogSamples all = logarithms(samples, samples.size(), learned, known);
   const std::vector<Evaluated> chosen = learnt_samples(samples, learned.most_samples);
-  const LogSamples learnt = logarithms(chosen, chosen.size(), learned);
-  const auto fit = [&](const std::vector<double> LogSamples::*property, const surrogate::Features& trend,
-                       const surrogate::Features& likeness, const std::shared_ptr<const Predictor>& of_base) {
-    return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), trend, likeness},
-                       {learnt.patterns, learnt.*property, trend, likeness}, settings.seed, of_base);
-  };
-  return {fit(&LogSamples::log_modulus, settings.mechanics.cell_modulus, {}, base.modulus),
-          fit(&LogSamples::log_toughness, {}, settings.mechanics.cell_loads, base.toughness)};
+  const LogSamples learnt = logarithms(chosen, chosen.size(), learned, known);
+  const std::span<const pattern::Pattern> first(all.patterns.data(), stage);
+  const surrogate::Features &cell_modulus = settings.mechanics.cell_modulus,
+                            &cell_loads = settings.mechanics.cell_loads;
+  const std::size_t noisy = std::min(stage, all.noise_variances.size());
+  return {fit_patches({first, std::span(all.log_modulus).first(stage), cell_modulus, {}},
+                      {learnt.patterns, learnt.log_modulus, cell_modulus, {}}, settings.seed, base.modulus),
+          fit_patches({first,
+                       std::span(all.log_toughness).first(stage),
+                       {},
+                       cell_loads,
+                       std::span(all.noise_variances).first(noisy)},
+                      {learnt.patterns, learnt.log_toughness, {}, cell_loads, learnt.noise_variances}, settings.seed,
+                      base.toughness)};
+}
+
+bool is_noise_known(std::span<const Evaluated> samples, const LearnedSettings& learned) {
+  return learned.predictor == "patches" && (learned.specimens > 1 || has_known_noise(samples));
+}
+
+std::vector<Evaluated> estimated(const Predictors& predictors, std::span<const Evaluated> samples,
+                                 const LearnedSettings& learned) {
+  std::vector<Evaluated> estimates(samples.begin(), samples.end());
+  const SpecimenScatter scatter(samples);
+  const LogSamples logs = logarithms(samples, samples.size(), learned, &scatter);
+  const std::vector<pattern::Pattern>& patterns = logs.patterns;
+  const std::vector<double> log_means = predictors.toughness->means(patterns);
+  std::vector<bool> is_raised(samples.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    double& toughness_pa = estimates[i].performance.toughness_pa;
+    is_raised[i] = logs.log_toughness[i] > std::log(std::max(1.0, toughness_pa)) + logs.noise_variances[i];
+    if (is_raised[i])
+      estimates[i].sampling.toughness_se_pa = toughness_pa * std::sqrt(logs.noise_variances[i]);
+    else
+      toughness_pa = std::exp(log_means[i]);
+  }
+  std::vector<std::size_t> best = optimize::best_by_rank(performances_of(estimates), kEstimatedWithError);
+  std::vector<pattern::Pattern> of_best;
+  std::erase_if(best, [&](std::size_t i) { return is_raised[i]; });
+  for (const std::size_t i : best) of_best.push_back(patterns[i]);
+  const auto predictions = predictors.toughness->predict(of_best);
+  for (std::size_t k = 0; k < best.size(); ++k) {
+    Evaluated& estimate = estimates[best[k]];
+    const double mean_pa = std::exp(predictions[k].mean + 0.5 * square(predictions[k].deviation));
+    estimate.performance.toughness_pa = mean_pa;
+    estimate.sampling.toughness_se_pa = mean_pa * predictions[k].deviation;
+  }
+  return estimates;
 }
 
 std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,

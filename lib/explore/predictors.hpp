@@ -23,6 +23,16 @@ std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int mo
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings,
                           const Predictors& base = {});
 
+/// Whether the predictor of toughness takes samples for means over specimens, with known noise, and predicts E[T].
+bool is_noise_known(std::span<const Evaluated> samples, const LearnedSettings& learned);
+
+/// Samples with the posterior mean of E[T] in place of their toughness, where the noise is known; the best of them by
+/// rank with its standard deviation as standard error, the others at the median. Those so bad that their toughness was
+/// raised to the floor stay as told.
+std::vector<Evaluated> estimated(const Predictors& predictors, std::span<const Evaluated> samples,
+                                 const LearnedSettings& learned);
+inline constexpr std::size_t kEstimatedWithError = 200;
+
 /// The objective of a search on the predictors: medians, raised by `optimism` deviations.
 std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,
                                             double optimism);

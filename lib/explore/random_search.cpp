@@ -20,8 +20,9 @@ class RandomSearch final : public Search {
     return ledger_.hand_out();
   }
 
-  void tell(std::span<const std::optional<optimize::Performance>> performances) override {
-    ledger_.record(performances);
+  void tell(std::span<const std::optional<optimize::Performance>> performances,
+            std::span<const Sampling> samplings) override {
+    ledger_.record(performances, samplings);
   }
 
   const std::vector<Evaluated>& evaluated() const override { return ledger_.evaluated(); }

@@ -16,10 +16,18 @@
 
 namespace nacre::explore {
 
+/// Specimens of one pattern, whose mean is its toughness.
+struct Sampling {
+  int specimens = 1;
+  double toughness_se_pa = 0.0;  ///< standard error of the mean; 0: not known
+  bool operator==(const Sampling&) const = default;
+};
+
 /// A simulated pattern.
 struct Evaluated {
   pattern::Pattern pattern;
   optimize::Performance performance;
+  Sampling sampling = {};
   bool operator==(const Evaluated&) const = default;
 };
 
@@ -45,6 +53,10 @@ struct LearnedSettings {
                                   ///< (networks learn from all)
   double floor_deviations = 0.5;  ///< toughness lower than so many robust deviations below its trend over the
                                   ///< rigid fraction counts as just that; 0: as it is
+  int specimens = 1;  ///< of one pattern that may be asked for, one by one: a pattern asked for again stands for a
+                      ///< further specimen. More than 1: T is an expectation, and every test has noise
+  int apart = 1;  ///< flips of free pixels between any two patterns that a batch is chosen from, as far as there are
+                  ///< enough of them; 1: they differ
   bool operator==(const LearnedSettings&) const = default;
 };
 
@@ -85,14 +97,16 @@ struct BatchRequest {
 };
 
 /// Deterministic: patterns asked for depend on the settings and the told performances only. No pattern is asked for
-/// twice.
+/// twice, unless LearnedSettings::specimens allows it.
 class Search {
  public:
   virtual ~Search() = default;
   /// The next patterns to simulate; empty when the search has ended (budget spent, or no new pattern found).
   virtual std::vector<pattern::Pattern> ask() = 0;
-  /// Performance of the patterns last asked for, in their order; nothing where the simulation failed.
-  virtual void tell(std::span<const std::optional<optimize::Performance>> performances) = 0;
+  /// Performance of the patterns last asked for, in their order; nothing where the simulation failed. Where a T is not
+  /// that of one specimen, of how many it is the mean: for all patterns, or for none.
+  virtual void tell(std::span<const std::optional<optimize::Performance>> performances,
+                    std::span<const Sampling> samplings = {}) = 0;
   /// Everything evaluated so far: settings.known first (each pattern once), then what was told, in order of evaluation;
   /// failed simulations are left out (they count towards the budget and are not asked for again).
   virtual const std::vector<Evaluated>& evaluated() const = 0;

@@ -1,5 +1,6 @@
 #include "offline/explore.hpp"
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -12,25 +13,31 @@
 
 namespace nacre::offline {
 
+std::string model_identity(const ExploreSettings& settings) {
+  return content_hash(std::string(to_string(settings.fidelity)) + material::to_toml(settings.parameters));
+}
+
 Explored explore_gamut(ExploreSettings settings, const ExploreEvents& events) {
   settings.search.mechanics = explore::mechanics_by_tester(settings.parameters, settings.fidelity, 0);
   const auto search = explore::make_search(settings.search);
   std::unique_ptr<store::SimulationCache> cache;
   if (!settings.cache.empty()) cache = std::make_unique<store::SimulationCache>(settings.cache);
   std::optional<explore::BatchLog> log;
-  if (!settings.batches.empty())
-    log.emplace(settings.batches, settings.search,
-                content_hash(std::string(to_string(settings.fidelity)) + material::to_toml(settings.parameters)));
+  if (!settings.batches.empty()) log.emplace(settings.batches, settings.search, model_identity(settings));
   const auto ask = [&] { return log ? log->ask(*search) : search->ask(); };
   const auto stopped = [&] { return events.stopped && events.stopped(); };
   Explored explored;
+  std::map<pattern::Pattern, int> specimens;  // tested so far: a pattern asked for again wants the next one
+  for (const explore::Evaluated& sample : settings.search.known) specimens[sample.pattern] = sample.sampling.specimens;
   for (auto batch = ask(); !batch.empty(); batch = ask()) {
     std::vector<std::optional<optimize::Performance>> performances(batch.size());
+    std::vector<int> numbers;
+    for (const pattern::Pattern& pattern : batch) numbers.push_back(specimens[pattern]++);
     parallel_for(batch.size(), [&](int i) {
       const auto index = static_cast<std::size_t>(i);
       if (stopped()) return;
-      performances[index] =
-          store::kept_performance({batch[index], settings.parameters, {}, settings.fidelity}, cache.get());
+      performances[index] = store::kept_performance(
+          {batch[index], settings.parameters, {}, settings.fidelity, numbers[index]}, cache.get());
       if (events.simulated) events.simulated();
     });
     if (stopped()) break;  // what is missing of this batch was not simulated: it must not count as failed

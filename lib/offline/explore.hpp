@@ -22,6 +22,9 @@ struct ExploreSettings {
   std::filesystem::path batches;  ///< record of the search beside the cache; empty: none
 };
 
+/// By which a record of a search (explore::BatchLog) knows its model: parameters and fidelity.
+std::string model_identity(const ExploreSettings& settings);
+
 /// What is told while a search runs; what these throw ends it.
 struct ExploreEvents {
   std::function<void()> simulated;                                   ///< a pattern, from any thread

@@ -145,13 +145,13 @@ std::vector<Selected> select_apart(std::span<const explore::Evaluated> gamut,
   const std::string empty_parts = empty_parts_in_words(choices, settings.count);
   std::vector<Selected> selected;
   for (const Choice& choice : choices) {
-    const auto& [pattern, performance] = pool[choice.candidate];
+    const pattern::Pattern& pattern = pool[choice.candidate].pattern;
     std::vector<pattern::Pattern> others(chosen_before.begin(), chosen_before.end());
     for (const Choice& other : choices) {
       if (other.candidate != choice.candidate) others.push_back(pool[other.candidate].pattern);
     }
     const std::string place = choice.bin >= 0 ? part_in_words(choice.bin, settings.count) : empty_parts;
-    selected.push_back({pattern, performance,
+    selected.push_back({pattern, pool[choice.candidate].performance,
                         fmt::format("near the best predicted toughness for its stiffness{}; {}", place,
                                     difference_in_words(pattern, measured, others)),
                         choice.bin});

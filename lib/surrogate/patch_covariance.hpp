@@ -26,7 +26,7 @@ struct PatchKernel {
   double whole_decay = 0.95;     ///< in (0, 1), per pixel of the quarter
   double feature_variance = 0.0;
   double feature_length = 1.0;   ///< root mean square over the features
-  double noise_variance = 0.01;  ///< the part that neighbourhoods cannot explain; on the diagonal only
+  double noise_variance = 0.01;  ///< the part that neighbourhoods cannot explain: of a pattern with itself only
   double signal_variance() const {
     return pixel_variance + patch_variance + region_variance + whole_variance + feature_variance;
   }

@@ -60,12 +60,18 @@ class PriorMean {
 /// Patterns in the form that the covariance uses.
 struct Points {
   std::vector<QuarterRows> rows;
-  MatrixXd features;  ///< a column for each pattern; without rows when there are none
+  MatrixXd features;         ///< a column for each pattern; without rows when there are none
+  VectorXd noise_variances;  ///< of the values there; empty: not known
   std::size_t size() const { return rows.size(); }
+  bool has_known_noise() const { return noise_variances.size() > 0; }
 };
 
-Points points_of(std::span<const pattern::Pattern> patterns, const Features& likeness) {
+Points points_of(std::span<const pattern::Pattern> patterns, const Features& likeness,
+                 std::span<const double> noise_variances = {}) {
+  assert(noise_variances.empty() || noise_variances.size() == patterns.size());
   Points points;
+  points.noise_variances =
+      Eigen::Map<const VectorXd>(noise_variances.data(), static_cast<Index>(noise_variances.size()));
   points.rows.reserve(patterns.size());
   for (const pattern::Pattern& pattern : patterns) points.rows.push_back(quarter_rows(pattern));
   points.features =
@@ -73,12 +79,14 @@ Points points_of(std::span<const pattern::Pattern> patterns, const Features& lik
   return points;
 }
 
-/// Of patches and features together.
+/// Of patches and features together, and of a pattern's own part with itself.
 class Covariance {
  public:
-  explicit Covariance(const PatchKernel& kernel) : patches_(kernel), kernel_(kernel) {}
+  Covariance(const PatchKernel& kernel, double own_variance)
+      : patches_(kernel), kernel_(kernel), own_variance_(own_variance) {}
   double operator()(const Points& a, std::size_t i, const Points& b, std::size_t j) const {
     double value = patches_(a.rows[i], b.rows[j]);
+    if (own_variance_ > 0.0 && a.rows[i] == b.rows[j]) value += own_variance_;
     if (a.features.rows() == 0) return value;
     const double apart = (a.features.col(static_cast<Index>(i)) - b.features.col(static_cast<Index>(j))).squaredNorm() /
                          static_cast<double>(a.features.rows());
@@ -105,12 +113,21 @@ class Covariance {
  private:
   PatchCovariance patches_;
   PatchKernel kernel_;
+  double own_variance_;
 };
+
+/// Variance of what neighbourhoods cannot explain of a pattern and is not noise.
+double own_variance(const Points& samples, const PatchKernel& kernel) {
+  return samples.has_known_noise() ? kernel.noise_variance : 0.0;
+}
 
 /// Lower triangle of the covariance of the samples, noise on its diagonal.
 MatrixXd sample_covariance(const Points& points, const PatchKernel& kernel) {
-  MatrixXd matrix = Covariance(kernel).within(points);
-  matrix.diagonal().array() += kernel.noise_variance;
+  MatrixXd matrix = Covariance(kernel, own_variance(points, kernel)).within(points);
+  if (points.has_known_noise())
+    matrix.diagonal() += points.noise_variances;
+  else
+    matrix.diagonal().array() += kernel.noise_variance;
   return matrix;
 }
 
@@ -120,9 +137,9 @@ class PatchProcess final : public Predictor {
       : base_(std::move(base)),
         trend_(samples, base_.get()),
         likeness_(samples.likeness),
-        samples_(points_of(samples.patterns, likeness_)),
-        covariance_(kernel),
-        signal_variance_(kernel.signal_variance()),
+        samples_(points_of(samples.patterns, likeness_, samples.noise_variances)),
+        covariance_(kernel, own_variance(samples_, kernel)),
+        signal_variance_(kernel.signal_variance() + own_variance(samples_, kernel)),
         factor_(sample_covariance(samples_, kernel)) {
     assert(factor_.info() == Eigen::Success);
     const Eigen::Map<const VectorXd> values(samples.values.data(), static_cast<Index>(samples.values.size()));
@@ -255,12 +272,13 @@ KernelPosterior deciding_samples(const Samples& samples, std::uint64_t seed, con
       trend(samples.patterns);
   RandomStream random(seed, "surrogate/kernel");
   std::vector<pattern::Pattern> patterns;
-  std::vector<double> values;
+  std::vector<double> values, noise_variances;
   for (const std::size_t i : chosen_indices(samples.values.size(), kKernelSamples, random)) {
     patterns.push_back(samples.patterns[i]);
     values.push_back(residuals[i]);
+    if (!samples.noise_variances.empty()) noise_variances.push_back(samples.noise_variances[i]);
   }
-  KernelPosterior posterior{.points = points_of(patterns, samples.likeness), .values = {}};
+  KernelPosterior posterior{.points = points_of(patterns, samples.likeness, noise_variances), .values = {}};
   posterior.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   return posterior;
 }
@@ -292,6 +310,7 @@ class KernelMemory {
     };
     append(posterior.values);
     append(points.features);
+    append(points.noise_variances);
     return content_hash(bytes);
   }
   std::mutex mutex_;
@@ -306,6 +325,7 @@ PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const P
   const double variance = posterior.values.squaredNorm() / static_cast<double>(size);
   const double scale = variance > 0.0 ? std::sqrt(variance) : 1.0;
   posterior.values /= scale;
+  posterior.points.noise_variances /= scale * scale;
   static KernelMemory memory;
   PatchKernel kernel = kernel_at(size < 10 ? posterior.centre() : memory.most_probable_of(posterior));
   for (double* part : {&kernel.pixel_variance, &kernel.patch_variance, &kernel.region_variance, &kernel.whole_variance,

@@ -17,6 +17,9 @@ struct Samples {
   Features trend = {};     ///< the mean of the prior is linear in them, besides a parabola in the rigid fraction
   Features likeness = {};  ///< patterns that are close in them are correlated: a Gaussian covariance added to that of
                            ///< patches
+  /// Known variance of the noise of each value. What neighbourhoods cannot explain (PatchKernel::noise_variance) is
+  /// then a pattern's own, and part of what is predicted. Empty: not known, and all of that counts as noise.
+  std::span<const double> noise_variances = {};
 };
 
 /// At most so many samples decide on a kernel.

@@ -18,6 +18,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -34,6 +35,7 @@ struct ExploreOptions {
   std::uint64_t seed = 1;
   int population = 20;
   int batch = 10;
+  int specimens = 1;
   bool json = false;
 };
 
@@ -52,6 +54,10 @@ explore::SearchSettings search_settings(const ExploreOptions& options) {
   settings.population = options.population;
   settings.batch = options.batch;
   settings.seed = options.seed;
+  settings.learned.specimens = options.specimens;
+  if (options.specimens > 1 && options.algorithm != "learned")
+    throw InputError::format("--specimens: `{}` tests one specimen of a pattern, expected --algorithm learned",
+                             options.algorithm);
   if (!options.former.empty() && options.algorithm != "learned")
     throw InputError::format("--former: `{}` cannot learn from former samples, expected --algorithm learned",
                              options.algorithm);
@@ -68,6 +74,8 @@ offline::ExploreSettings settings_from(const ExploreOptions& options) {
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.parameters = parameters_from_option(options.params, material::default_parameters());
   settings.search = search_settings(options);
+  if (options.specimens > 1 && !tester::specimens_differ(settings.parameters))
+    throw InputError("--specimens: without strength_cv all specimens are alike, expected 1");
   settings.cache = options.cache;
   if (!options.cache.empty()) settings.batches = options.out + ".batches";
   const explore::SearchSettings& search = settings.search;
@@ -126,7 +134,7 @@ void add_explore(CLI::App& app, Action& action) {
       .add_option("--algorithm", options->algorithm,
                   fmt::format("How to search: {}", fmt::join(explore::algorithms(), ", ")))
       ->capture_default_str();
-  command.add_option("--budget", options->budget, "How many patterns to simulate")
+  command.add_option("--budget", options->budget, "How many fracture tests")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   command.add_option("--out", options->out, "gamut.csv to write: every simulated pattern with E and T")->required();
@@ -137,6 +145,10 @@ void add_explore(CLI::App& app, Action& action) {
   command.add_option("--former", options->former,
                      "gamut.csv of other parameters or another fidelity, from which `learned` learns");
   add_fidelity(command, options->fidelity)->capture_default_str();
+  CLI::Option* specimens = command.add_option(
+      "--specimens", options->specimens,
+      "Specimens of a pattern that `learned` may test, further ones where they decide: T is then an expectation");
+  specimens->check(CLI::Range(1, 100))->capture_default_str();
   add_seed(command, options->seed, "Seed of every random choice")->capture_default_str();
   command.add_option("--population", options->population, "Patterns of a generation, or of the first batch")
       ->check(CLI::Range(2, 100'000))

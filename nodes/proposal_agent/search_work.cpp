@@ -38,8 +38,8 @@ std::vector<Packed> items_in(const std::string& bytes) {
 
 std::string packed(const std::vector<explore::Evaluated>& samples) {
   std::vector<PackedSample> items;
-  for (const auto& [pattern, performance] : samples)
-    items.push_back({pattern.bits(), performance.modulus_pa, performance.toughness_pa});
+  for (const explore::Evaluated& sample : samples)
+    items.push_back({sample.pattern.bits(), sample.performance.modulus_pa, sample.performance.toughness_pa});
   return bytes_of(items);
 }
 

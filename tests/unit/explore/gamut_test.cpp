@@ -31,6 +31,17 @@ std::string reading_error(std::string_view text) {
   return "no error";
 }
 
+TEST(GamutCsv, KeepsHowWellMeansAreKnown) {
+  std::vector<Evaluated> gamut = some_gamut(1);
+  gamut[2].sampling = {4, 1234.5};
+  const std::string csv = to_csv(gamut);
+  EXPECT_THAT(csv, HasSubstr("modulus_pa,toughness_pa,toughness_se_pa,specimens\n"));
+  EXPECT_EQ(gamut_from_csv(csv, "gamut.csv"), gamut);
+  const std::string head = "pattern,modulus_pa,toughness_pa,specimens\n577fffe9fffdef,1,1,";
+  EXPECT_EQ(gamut_from_csv(head + "3\n", "g").front().sampling, (Sampling{3, 0.0}));
+  EXPECT_THAT(reading_error(head + "0\n"), HasSubstr("line 2, column 4 (specimens): \"0\", expected a whole number"));
+}
+
 TEST(Changes, OfAGamutAndTheGamutTheyMakeOfItsBase) {
   const auto base = some_gamut(1);
   auto now = base;

@@ -58,6 +58,35 @@ TEST(ExpectedImprovement, IsTheMeanGrowthOfDraws) {
   EXPECT_NEAR(expected_improvement(belief, some_front()) / kUnits, sum / kDraws, 0.02 * sum / kDraws);
 }
 
+TEST(ExpectedImprovement, ANoisyTestSettlesAPartAndKeepsTheMean) {
+  const auto mean_of = [](const LogNormal& belief) { return belief.expected_excess(0.0); };
+  Belief belief{{std::log(1e9), 0.0}, {std::log(0.3e6), 0.2}};
+  const double sure = expected_improvement(belief, some_front());
+  EXPECT_EQ(belief.toughness_ahead().log_deviation, 0.2);
+  belief.noise_variance = 0.04;
+  EXPECT_NEAR(belief.toughness_ahead().log_deviation, 0.2 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(mean_of(belief.toughness_ahead()), mean_of(belief.toughness), 1e-6 * mean_of(belief.toughness));
+  EXPECT_LT(expected_improvement(belief, some_front()), sure);
+}
+
+TEST(ExpectedRegrowth, IsTheMeanGrowthOfThePosteriorMeansFront) {
+  RandomStream random(7, "test");
+  std::vector<Performance> points = some_front();
+  points.push_back({0.55e9, 0.38e6});  // behind the second, and next in line
+  Belief belief{{std::log(0.6e9), 0.0}, {std::log(0.4e6) - 0.02, 0.2}, 0.03, points[1]};
+  std::vector<Performance> others = points;
+  others.erase(others.begin() + 1);
+  const LogNormal ahead = belief.toughness_ahead();
+  double sum = 0.0;
+  constexpr int kDraws = 40000;
+  for (int i = 0; i < kDraws; ++i)
+    sum += growth(others, {0.6e9, std::exp(ahead.log_mean + ahead.log_deviation * random.normal())});
+  const double expected = sum / kDraws - growth(others, points[1]);
+  EXPECT_NEAR(expected_regrowth(belief, points) / kUnits, expected, 0.03 * expected);
+  belief.toughness = {std::log(0.4e6) - 0.5e-6, 1e-3};
+  EXPECT_NEAR(expected_regrowth(belief, points) / kUnits, 0.0, 1e-6) << "one that no rival comes near is tested enough";
+}
+
 TEST(BestImprovements, AreChosenOneByOneAsIfTheFormerCameTrue) {
   RandomStream random(4, "test");
   std::vector<Belief> beliefs;

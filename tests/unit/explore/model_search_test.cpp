@@ -1,10 +1,12 @@
-// Model-based searches: learned, tsemo, dgemo.
+// Model-based searches: learned and its rivals.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numeric>
 
 #include "base/files.hpp"
@@ -14,6 +16,7 @@
 #include "explore/batch_log.hpp"
 #include "explore/learned.hpp"
 #include "explore/predictors.hpp"
+#include "explore/specimen_scatter.hpp"
 #include "explore/surrogate_search.hpp"
 #include "pattern/random_pattern.hpp"
 #include "synthetic.hpp"
@@ -179,6 +182,103 @@ TEST(Learned, TheModulusThatIsComputedDecidesAndNotTheOneBelieved) {
   for (const pattern::Pattern& pattern : batch) EXPECT_EQ(pattern.bits() % 3, 0u) << pattern.key();
 }
 
+/// The stand-in as a mean over specimens: each is tougher or less so by a log-normal factor.
+class NoisyStandIn {
+ public:
+  std::vector<std::optional<optimize::Performance>> operator()(std::span<const pattern::Pattern> batch) {
+    std::vector<std::optional<optimize::Performance>> performances;
+    for (const pattern::Pattern& pattern : batch) {
+      optimize::Performance performance = synthetic_performance(pattern);
+      performance.toughness_pa *= std::exp(0.2 * random_.normal() - 0.02);
+      performances.emplace_back(performance);
+    }
+    return performances;
+  }
+
+ private:
+  RandomStream random_{17, "test"};
+};
+
+TEST(Learned, TestsFurtherSpecimensWhereTheyDecide) {
+  SearchSettings chosen = settings("learned", 5, 160);
+  chosen.learned.specimens = 4;
+  const auto search = make_search(chosen);
+  NoisyStandIn tested;
+  std::map<pattern::Pattern, int> specimens;
+  int tests = 0;
+  for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
+    for (const pattern::Pattern& pattern : batch) ++specimens[pattern], ++tests;
+    search->tell(tested(batch));
+  }
+  EXPECT_EQ(tests, 160);
+  ASSERT_EQ(search->evaluated().size(), specimens.size());
+  int again = 0;
+  for (const Evaluated& sample : search->evaluated()) {
+    EXPECT_EQ(sample.sampling.specimens, specimens.at(sample.pattern));
+    EXPECT_LE(sample.sampling.specimens, 4);
+    EXPECT_EQ(sample.sampling.toughness_se_pa > 0.0, sample.sampling.specimens > 1);
+    again += sample.sampling.specimens - 1;
+  }
+  EXPECT_GT(again, 5);
+  EXPECT_LT(again, 100) << "most tests are of new patterns";
+}
+
+TEST(Learned, ABatchIsChosenFromPatternsThatAreApart) {
+  const auto nearest_in_batches = [](int apart) {
+    SearchSettings chosen = settings("learned", 4, 80);
+    chosen.learned.apart = apart;
+    const auto search = make_search(chosen);
+    int nearest = pattern::kFreePixels;
+    for (const auto& batch : run(*search))
+      for (std::size_t i = 0; i < batch.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          nearest = std::min(nearest, std::popcount(batch[i].bits() ^ batch[j].bits()));
+    return nearest;
+  };
+  EXPECT_GE(nearest_in_batches(4), 4);
+  EXPECT_LT(nearest_in_batches(1), 4);
+}
+
+TEST(Estimated, TheFrontIsNotThatOfTheLuckiest) {
+  const auto random = make_search(settings("random", 6, 300));
+  NoisyStandIn tested;
+  for (auto batch = random->ask(); !batch.empty(); batch = random->ask()) {
+    const auto performances = tested(batch);
+    std::vector<Sampling> samplings;
+    for (const auto& performance : performances) samplings.push_back({1, 0.2 * performance->toughness_pa});
+    random->tell(performances, samplings);
+  }
+  const std::vector<Evaluated>& samples = random->evaluated();
+  const SearchSettings chosen = settings("learned", 1, 300);
+  const auto estimates = estimated(fit_predictors(samples, chosen), samples, chosen.learned);
+  const auto log_excess = [](const std::vector<Evaluated>& claimed) {
+    std::vector<double> logs;
+    for (const Evaluated& sample : best_by_rank(claimed, 20))
+      logs.push_back(std::log(sample.performance.toughness_pa / synthetic_performance(sample.pattern).toughness_pa));
+    return mean(logs);
+  };
+  EXPECT_GT(log_excess(samples), 0.1);
+  EXPECT_LT(std::abs(log_excess(estimates)), 0.05);
+  for (const Evaluated& estimate : best_by_rank(estimates, 20)) EXPECT_GT(estimate.sampling.toughness_se_pa, 0.0);
+}
+
+TEST(SpecimenScatter, IsThatOfDesignsAlikeOnceTheyWereTestedTwice) {
+  RandomStream random(3, "test");
+  std::vector<Evaluated> samples;
+  for (int i = 0; i < 200; ++i) {
+    const pattern::Pattern pattern = pattern::random_pattern(i % 2 == 0 ? 55 : 80, random);
+    const double scatter = i % 2 == 0 ? 0.05 : 0.2, apart = scatter * (random.normal() - random.normal());
+    samples.push_back({pattern, {1e9, 1e6}, {2, 0.5e6 * std::abs(apart)}});
+  }
+  const SpecimenScatter none({}), known(samples);
+  const pattern::Pattern soft = pattern::random_pattern(55, random), stiff = pattern::random_pattern(80, random);
+  EXPECT_DOUBLE_EQ(none.variance_at(soft), kPriorScatter * kPriorScatter);
+  EXPECT_NEAR(std::sqrt(known.variance_at(soft)), 0.05, 0.01);
+  EXPECT_NEAR(std::sqrt(known.variance_at(stiff)), 0.2, 0.03);
+  EXPECT_DOUBLE_EQ(known.noise_of({soft, {1e9, 1e6}, {4, 0.0}}), known.variance_at(soft) / 4.0);
+  EXPECT_DOUBLE_EQ(known.noise_of({soft, {1e9, 1e6}, {1, 3e4}}), 9e-4) << "as told";
+}
+
 TEST(Predictors, AFormerModelThatMisleadsIsNotBuiltUpon) {
   RandomStream random(11, "test");
   std::vector<Evaluated> samples, former;
@@ -263,7 +363,8 @@ TEST_P(EveryModelSearch, AnInterruptedSearchComputesNoBatchTwice) {
   std::filesystem::remove(path);
 }
 
-INSTANTIATE_TEST_SUITE_P(Algorithms, EveryModelSearch, ::testing::Values("learned", "tsemo", "dgemo"),
+INSTANTIATE_TEST_SUITE_P(Algorithms, EveryModelSearch,
+                         ::testing::Values("learned", "tsemo", "dgemo"),
                          [](const auto& algorithm) { return algorithm.param; });
 
 // The last batch of a small budget is shorter than the one that a larger budget asks for.

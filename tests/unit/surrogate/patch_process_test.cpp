@@ -110,6 +110,30 @@ TEST(PatchProcess, PassesThroughItsSamplesAndKnowsThatItDoes) {
   EXPECT_GT(process->predict(std::span(&far, 1)).front().deviation, 0.1);
 }
 
+TEST(PatchProcess, KnownNoiseIsTakenOutAndAPatternsOwnPartIsKept) {
+  RandomStream random(6, "test");
+  const auto patterns = random_patterns(200, 6);
+  std::vector<double> truth = values_of(patterns), values, noise_variances;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    truth[i] += 0.1 * random.normal();  // its own
+    noise_variances.push_back(i % 2 == 0 ? 0.04 : 1e-4);
+    values.push_back(truth[i] + std::sqrt(noise_variances[i]) * random.normal());
+  }
+  const Samples samples{patterns, values, {}, {}, noise_variances};
+  const auto process = make_patch_process(samples, fit_patch_kernel(samples, 1));
+  const auto predictions = process->predict(patterns);
+  double noisy = 0.0, noisy_believed = 0.0, sure = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    (i % 2 == 0 ? noisy : sure) += 0.01 * std::pow(predictions[i].mean - truth[i], 2);
+    if (i % 2 == 0) noisy_believed += 0.01 * std::pow(predictions[i].deviation, 2);
+  }
+  EXPECT_LT(noisy, 0.7 * 0.04);
+  EXPECT_NEAR(noisy, noisy_believed, 0.4 * noisy);
+  EXPECT_LT(sure, 2e-4) << "they pass through what is known well";
+  const Eigen::MatrixXd covariance = process->covariance(patterns);
+  EXPECT_NEAR(covariance(3, 3), std::pow(predictions[3].deviation, 2), 1e-9);
+}
+
 TEST(PatchProcess, PredictsWhatNeighbourhoodsDecideBetterThanDistanceAloneCould) {
   const auto patterns = random_patterns(300, 4), unseen = random_patterns(200, 5);
   const auto values = values_of(patterns), truth = values_of(unseen);
