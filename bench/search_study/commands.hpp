@@ -25,8 +25,9 @@ struct Options {
   int seeds = 1;
   double minutes = 1e6;
   int threads = 0;
-  std::vector<int> checkpoints = {100, 200, 300, 500, 800};               ///< held out: samples learnt from
+  std::vector<int> checkpoints = {100, 200, 300, 500, 800};               ///< samples learnt from, or tests done
   int next = 100;                                                         ///< held out: samples predicted
+  int again = 8;                                                          ///< expected: specimens of a front's designs
   std::vector<std::string> variants = {"learned", "nsga2-single-pixel"};  ///< growth: curves of the figure
   int most = 5000;                                                        ///< growth: samples, the end of the figure
   std::string out;                                                        ///< of a figure
@@ -36,6 +37,9 @@ struct Options {
 bool run_searches(const Options& options);
 /// Learns from the first samples of finished runs and predicts those asked for next.
 void predict_held_out(const Options& options);
+/// What the fronts that runs report after so many fracture tests are worth: every design of them is tested again with
+/// `again` specimens of its own. One line for each checkpoint.
+void expect_fronts(const Options& options);
 /// Samples until the reference's final hypervolume, final hypervolumes, times: one line per variant.
 void summarise(const Options& options);
 

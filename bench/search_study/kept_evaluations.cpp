@@ -59,21 +59,22 @@ KeptEvaluations::KeptEvaluations(const Options& options)
       parameters_(parameters_of(options)),
       table_(table_path(options), {"modulus_pa", "toughness_pa"}) {}
 
-KeptEvaluations::KeptPerformance KeptEvaluations::operator()(const pattern::Pattern& pattern) {
+KeptEvaluations::KeptPerformance KeptEvaluations::operator()(const pattern::Pattern& pattern, int specimen) {
   const auto performance = [](double modulus_pa, double toughness_pa) {
     return modulus_pa < 0.0 ? std::nullopt : std::optional(optimize::Performance{modulus_pa, toughness_pa});
   };
-  if (const auto known = table_.find(pattern.key())) return {performance((*known)[0], (*known)[1]), 0.0};
+  const std::string key = specimen == 0 ? pattern.key() : fmt::format("{}/{}", pattern.key(), specimen);
+  if (const auto known = table_.find(key)) return {performance((*known)[0], (*known)[1]), 0.0};
   if (!fidelity_) return {explore::synthetic_performance(pattern), 0.0};
   const double begin = processor_time_s();
-  const tester::Simulation simulation{pattern, parameters_, {}, *fidelity_};
+  const tester::Simulation simulation{pattern, parameters_, {}, *fidelity_, specimen};
   const auto modulus = tester::test_modulus(simulation);
   const auto toughness = tester::test_toughness(simulation);
   const bool sound = modulus && toughness;
-  table_.add(pattern.key(), {sound ? modulus->modulus_pa : -1.0, sound ? toughness->toughness_pa : -1.0});
+  table_.add(key, {sound ? modulus->modulus_pa : -1.0, sound ? toughness->toughness_pa : -1.0});
   // Looked up again: an answer must not depend on whether it was just simulated, and the file keeps nine digits.
   const double spent = processor_time_s() - begin;
-  const auto kept = table_.find(pattern.key()).value();
+  const auto kept = table_.find(key).value();
   return {performance(kept[0], kept[1]), spent};
 }
 

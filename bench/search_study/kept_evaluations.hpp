@@ -10,7 +10,8 @@
 namespace nacre::search_study {
 
 /// Modulus and toughness of patterns for one parameter set and fidelity; what was simulated once stands in a CSV file
-/// (key,modulus_pa,toughness_pa; negative: the simulation failed).
+/// (key,modulus_pa,toughness_pa; negative: the simulation failed). The key of a specimen N other than the first is
+/// KEY/N.
 class KeptEvaluations {
  public:
   explicit KeptEvaluations(const Options& options);
@@ -19,7 +20,7 @@ class KeptEvaluations {
     double processor_s = 0.0;  ///< 0 when it was looked up
   };
   /// Thread-safe.
-  KeptPerformance operator()(const pattern::Pattern& pattern);
+  KeptPerformance operator()(const pattern::Pattern& pattern, int specimen = 0);
 
  private:
   std::optional<tester::Fidelity> fidelity_;

@@ -40,6 +40,8 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--weight-decay", learned.weight_decay)->capture_default_str();
   command.add_option("--dropout", learned.dropout)->capture_default_str();
   command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
+  command.add_option("--specimens", learned.specimens)->capture_default_str();
+  command.add_option("--apart", learned.apart)->capture_default_str();
   command.add_option("--barred-start", learned.barred_start)->capture_default_str();
   command.add_option("--barred-candidates", learned.barred_candidates)->capture_default_str();
   command.add_flag("--believed-modulus", options.believed_modulus,
@@ -62,25 +64,32 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App* run = app.add_subcommand("run", "Search, seed after seed");
   CLI::App* held_out = app.add_subcommand("held-out", "Predict what a finished run asked for next");
+  CLI::App* expected = app.add_subcommand("expected", "Test the fronts that runs report with further specimens");
   CLI::App* summary =
       app.add_subcommand("summary", "Samples to the goal, final hypervolumes and times of all variants");
   CLI::App* growth = app.add_subcommand("growth", "Draw hypervolume against samples");
   CLI::App* predicted = app.add_subcommand("predicted", "Draw predicted against simulated");
-  for (CLI::App* command : {run, held_out, summary, growth, predicted}) add_common(*command, options);
-  for (CLI::App* command : {run, held_out, predicted}) add_learning(*command, options);
-  run->add_option("--algorithm", options.search.algorithm)->check(CLI::IsMember(nacre::explore::algorithms()));
+  for (CLI::App* command : {run, held_out, expected, summary, growth, predicted}) add_common(*command, options);
+  for (CLI::App* command : {run, held_out, expected, predicted}) add_learning(*command, options);
+  for (CLI::App* command : {run, expected})
+    command->add_option("--algorithm", options.search.algorithm)->check(CLI::IsMember(nacre::explore::algorithms()));
   run->add_option("--budget", options.search.budget)->capture_default_str();
   run->add_option("--population", options.search.population)->capture_default_str();
   run->add_option("--batch", options.search.batch)->capture_default_str();
   run->add_option("--known", options.known, "gamut.csv of the same parameters and fidelity to start from")
       ->check(CLI::ExistingFile);
   run->add_option("--minutes", options.minutes, "stop after this time; run again to go on");
-  run->add_option("--threads", options.threads, "0: all allowed cores");
   for (CLI::App* command : {held_out, predicted}) {
     command->add_option("--checkpoints", options.checkpoints, "samples learnt from; a picture takes the first")
         ->capture_default_str();
     command->add_option("--next", options.next, "samples predicted")->capture_default_str();
   }
+  expected->add_option("--checkpoints", options.checkpoints, "fracture tests after which fronts are taken")
+      ->capture_default_str();
+  expected->add_option("--again", options.again, "specimens of each of a front's designs")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  for (CLI::App* command : {run, expected}) command->add_option("--threads", options.threads, "0: all allowed cores");
   growth->add_option("--variants", options.variants, "curves")->capture_default_str();
   growth->add_option("--most", options.most, "samples where the picture ends")
       ->capture_default_str()
@@ -97,6 +106,7 @@ int main(int argc, char** argv) {
     if (!options.former.empty()) options.search.former = nacre::explore::read_gamut_csv(options.former);
     if (*run) finished = run_searches(options);
     if (*held_out) predict_held_out(options);
+    if (*expected) expect_fronts(options);
     if (*summary) summarise(options);
     if (*growth) draw_growth(options);
     if (*predicted) draw_predicted(options);

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Growth of one run, a row whenever a batch is told: samples, hypervolumes, processor seconds of the batch.
+/// Growth of one run, a row whenever a batch is told: fracture tests, hypervolumes, processor seconds of the batch.
 study::StudyTable growth_table(const Options& options, std::uint64_t seed) {
   return {run_path(options, options.variant, seed) + "-growth.csv",
           {"staircase_gpa_mpa", "polygon_gpa_mpa", "thinking_s", "simulating_s"}};
@@ -29,6 +30,8 @@ bool run_one(const Options& options, std::uint64_t seed, KeptEvaluations& evalua
   const auto search = explore::make_search(settings);
   explore::BatchLog log(run_path(options, options.variant, seed) + "-batches.txt", settings);
   study::StudyTable growth = growth_table(options, seed);
+  std::map<pattern::Pattern, int> specimens;  // tested so far
+  auto tests = static_cast<int>(settings.known.size());
   while (true) {
     if (Clock::now() >= end) return false;
     const bool is_new = log.left() == 0;
@@ -38,17 +41,20 @@ bool run_one(const Options& options, std::uint64_t seed, KeptEvaluations& evalua
     if (batch.empty()) break;
     std::vector<std::optional<optimize::Performance>> answers(batch.size());
     std::vector<double> spent(batch.size());
+    std::vector<int> numbers;
+    for (const pattern::Pattern& pattern : batch) numbers.push_back(specimens[pattern]++);
     parallel_for(
         static_cast<int>(batch.size()),
         [&](int i) {
           const auto index = static_cast<std::size_t>(i);
-          const auto answer = evaluate(batch[index]);
+          const auto answer = evaluate(batch[index], numbers[index]);
           answers[index] = answer.performance;
           spent[index] = answer.processor_s;
         },
         options.threads);
     search->tell(answers);
-    const std::string samples = fmt::format("{}", search->evaluated().size());
+    tests += static_cast<int>(batch.size());
+    const std::string samples = fmt::format("{}", tests);
     if (growth.find(samples)) continue;
     double simulating = 0.0;
     for (const double each : spent) simulating += each;
