@@ -1,6 +1,7 @@
 // Part of the command line (command.hpp): nacre explore, the search for the gamut in this process.
 
 #include <chrono>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "explore/gamut_csv.hpp"
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
+#include "offline/ask_tell.hpp"
 #include "offline/explore.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -37,6 +39,7 @@ struct ExploreOptions {
   int batch = 10;
   int specimens = 1;
   bool json = false;
+  bool ask_tell = false;
 };
 
 void print_summary(const offline::Explored& explored, const ExploreOptions& options) {
@@ -77,7 +80,7 @@ offline::ExploreSettings settings_from(const ExploreOptions& options) {
   if (options.specimens > 1 && !tester::specimens_differ(settings.parameters))
     throw InputError("--specimens: without strength_cv all specimens are alike, expected 1");
   settings.cache = options.cache;
-  if (!options.cache.empty()) settings.batches = options.out + ".batches";
+  if (!options.cache.empty() || options.ask_tell) settings.batches = options.out + ".batches";
   const explore::SearchSettings& search = settings.search;
   const int unlearnt = search.population + (search.former.empty() ? search.learned.barred_start : 0);
   if (search.algorithm == "learned" && search.budget <= unlearnt)
@@ -102,7 +105,36 @@ class SavedGamut {
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
 
+/// Requests line by line until they end or the program is interrupted; the log beside the gamut is what it goes on by.
+int converse(const ExploreOptions& options) {
+  const offline::ExploreSettings settings = settings_from(options);
+  explore::make_search(settings.search);
+  prepare_output_file(options.out, {options.cache, options.params, options.former});
+  const runtime::Interrupts interrupts;
+  offline::AskTell conversation(settings, options.out + ".log", [&] { return interrupts.any(); });
+  SavedGamut saved(options.out);
+  bool is_understood = true;
+  const auto say = [](const nlohmann::ordered_json& response) {
+    std::cout << response.dump() << std::endl;
+    check_standard_output();
+  };
+  say(conversation.standing());
+  std::string line;
+  for (std::size_t number = 1; !interrupts.any() && std::getline(std::cin, line); ++number) {
+    const nlohmann::ordered_json response = conversation.respond(line, number);
+    if (interrupts.any()) break;  // what was tested of the request stands in the log
+    is_understood = is_understood && !response.contains("error");
+    say(response);
+    saved.keep(conversation.gamut());
+  }
+  explore::write_gamut_csv(options.out, conversation.gamut());
+  if (interrupts.any()) return 1;
+  constexpr int kBadInput = 2;
+  return is_understood ? 0 : kBadInput;
+}
+
 int explore_gamut(const ExploreOptions& options) {
+  if (options.ask_tell) return converse(options);
   const offline::ExploreSettings settings = settings_from(options);
   explore::make_search(settings.search);  // bad settings are refused before a folder is made
   prepare_output_file(options.out, {options.cache, options.params, options.former});
@@ -156,7 +188,14 @@ void add_explore(CLI::App& app, Action& action) {
   command.add_option("--batch", options->batch, "Patterns simulated at once, between two steps of the search")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  command.add_flag("--json", options->json, "One JSON document on standard output");
+  CLI::Option* json = command.add_flag("--json", options->json, "One JSON document on standard output");
+  command
+      .add_flag(
+          "--ask-tell", options->ask_tell,
+          "Requests as JSON lines on standard input, responses on standard output: ask for a batch, tell E, T and "
+          "standard errors, test patterns (docs/FORMATS.md). The same command again goes on where it was")
+      ->excludes(json)
+      ->excludes(specimens);
 }
 
 }  // namespace nacre::cli

@@ -327,6 +327,26 @@ TEST_F(CommandLine, InterruptedExploreKeepsTheGamutSoFar) {
   EXPECT_GT(std::count(std::istreambuf_iterator<char>(gamut), {}, '\n'), 5);
 }
 
+TEST_F(CommandLine, AnInterruptedConversationGoesOn) {
+  const std::string request = R"({"request": "test", "patterns": ["577fffe9fffdef"], "specimens": 5000})";
+  const std::string command = "exec \"$0\" explore --ask-tell --fidelity tiny --budget 10000 --out \"$1\" < \"$2\"";
+  runtime::ChildProcess process({"/bin/sh", "-c", command, program("nacre"), path("g.csv"), file("in", request)});
+  ASSERT_TRUE(
+      becomes_true([&] { return fs::exists(path("g.csv.log")) && fs::file_size(path("g.csv.log")) > 0; }, 60.0));
+  process.signal_group(SIGINT);
+  std::string said;
+  EXPECT_EQ(wait_for_end(process, said).exit_status, 1) << said;
+  const std::string log = read_file(path("g.csv.log"));
+  runtime::ChildProcess again(
+      {"/bin/sh", "-c", command, program("nacre"), path("g.csv"), file("faulty", "{\"request\": \"asks\"}\n")});
+  said.clear();
+  EXPECT_EQ(wait_for_end(again, said).exit_status, 2) << said;
+  const auto standing = nlohmann::json::parse(said.substr(0, said.find('\n')));
+  EXPECT_EQ(standing["tests_left"], 10000 - std::ranges::count(log, '\n'));
+  EXPECT_THAT(said, HasSubstr("line 1: `request` = \\\"asks\\\""));
+  EXPECT_THAT(read_file(path("g.csv")), HasSubstr("577fffe9fffdef"));
+}
+
 TEST_F(CommandLine, AKilledExploreGoesOnWhereItWas) {
   const auto command = [&](const std::string& out, const std::string& cache) {
     return std::vector<std::string>{"explore",  "--fidelity", "tiny",         "--algorithm", "learned",

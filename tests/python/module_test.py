@@ -240,6 +240,29 @@ class Progress(unittest.TestCase):
         self.assertGreater(sum(begun < t < end for t in ticks), 5)
 
 
+class Examples(unittest.TestCase):
+    def test_an_optimiser_of_ones_own_drives_the_testers(self):
+        with tempfile.TemporaryDirectory() as folder:
+            gamut = pathlib.Path(folder) / "gamut.csv"
+
+            def search(tests):
+                done = subprocess.run([sys.executable, SOURCE / "examples/ask_tell.py", NACRE, gamut, str(tests), "tiny"],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                lines = [line.split() for line in done.stdout.splitlines()]
+                merits = [float(words[2]) for words in lines]
+                self.assertEqual(merits, sorted(merits))
+                self.assertGreater(len(merits), 1)
+                rows = {row.split(",")[1]: row.split(",") for row in gamut.read_text().splitlines()[1:]}
+                _, _, _, modulus, toughness, error, specimens = rows[lines[-1][1]]
+                self.assertAlmostEqual(float(modulus) * float(toughness) / 1e15, merits[-1], delta=1e-4)
+                self.assertGreater(float(error), 0.0)
+                return len(rows)
+
+            self.assertEqual(search(60), 30)
+            self.assertEqual(search(100), 50)
+
+
 class Stubs(unittest.TestCase):
     def test_every_name_has_its_types_and_a_docstring(self):
         stub = ast.parse((pathlib.Path(nacre.__file__).parent / "__init__.pyi").read_text())
