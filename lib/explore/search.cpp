@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/ranges.h>
 
@@ -11,10 +12,24 @@
 #include "explore/model_search.hpp"
 #include "explore/random_search.hpp"
 #include "explore/rivals/dgemo.hpp"
+#include "explore/rivals/egbo.hpp"
+#include "explore/rivals/morbo.hpp"
+#include "explore/rivals/nehvi.hpp"
 #include "explore/rivals/tsemo.hpp"
 
 namespace nacre::explore {
 namespace {
+
+using BatchFunction = std::vector<pattern::Pattern> (*)(const BatchRequest&);
+
+/// What chooses the batches of a model-based search; nothing for another.
+BatchFunction batch_function(const std::string& algorithm) {
+  static const std::map<std::string, BatchFunction> kFunctions = {{"learned", learned_batch}, {"tsemo", tsemo_batch},
+                                                                  {"dgemo", dgemo_batch},     {"nehvi", nehvi_batch},
+                                                                  {"morbo", morbo_batch},     {"egbo", egbo_batch}};
+  const auto found = kFunctions.find(algorithm);
+  return found == kFunctions.end() ? nullptr : found->second;
+}
 
 void check(bool within, std::string_view key, int value, std::string_view expected) {
   if (!within) throw InputError::format("search: {} = {}, expected {}", key, value, expected);
@@ -57,17 +72,15 @@ std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern>
 
 const std::vector<std::string>& algorithms() {
   static const std::vector<std::string> kNames = {
-      "nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"};
+      "nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo", "nehvi", "morbo", "egbo"};
   return kNames;
 }
 
 std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request) {
-  const std::string& algorithm = batch_request.settings.algorithm;
-  if (algorithm == "learned") return learned_batch(batch_request);
-  if (algorithm == "tsemo") return tsemo_batch(batch_request);
-  if (algorithm == "dgemo") return dgemo_batch(batch_request);
-  throw InputError::format("search: algorithm \"{}\" has no batch requests, expected learned, tsemo or dgemo",
-                           algorithm);
+  const BatchFunction batch = batch_function(batch_request.settings.algorithm);
+  if (batch == nullptr)
+    throw InputError::format("search: algorithm \"{}\" has no batch requests", batch_request.settings.algorithm);
+  return batch(batch_request);
 }
 
 std::unique_ptr<Search> make_search(const SearchSettings& settings) {
@@ -77,7 +90,7 @@ std::unique_ptr<Search> make_search(const SearchSettings& settings) {
   if (algorithm == "nsga2") return make_evolution(settings, Variation::three_way);
   if (algorithm == "nsga2-single-pixel") return make_evolution(settings, Variation::single_pixel);
   if (algorithm == "nsga2-rollback") return make_evolution(settings, Variation::single_pixel_rolled_back);
-  if (algorithm == "learned" || algorithm == "tsemo" || algorithm == "dgemo") return make_model_search(settings);
+  if (batch_function(algorithm) != nullptr) return make_model_search(settings);
   throw InputError::format("search: algorithm \"{}\", expected one of {}", algorithm, fmt::join(algorithms(), ", "));
 }
 

@@ -124,7 +124,8 @@ class Search {
 std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request);
 
 /// Names of the algorithms: nsga2 (NSGA-II with the three-way mutation and no crossover); nsga2-single-pixel,
-/// nsga2-rollback (the baselines of 3.2.5); random; tsemo and dgemo (Bayesian optimisation); learned (2.3.3).
+/// nsga2-rollback (the baselines of 3.2.5); random; learned (2.3.3); tsemo, dgemo, nehvi, morbo and egbo (Bayesian
+/// optimisation).
 const std::vector<std::string>& algorithms();
 
 /// Searches with equal seeds and populations begin with the same random patterns whatever the algorithm; `known`

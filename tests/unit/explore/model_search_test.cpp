@@ -199,6 +199,12 @@ class NoisyStandIn {
   RandomStream random_{17, "test"};
 };
 
+TEST(ModernRivals, BeatRandomSearchOnTheStandIn) {
+  for (const char* algorithm : {"nehvi", "morbo", "egbo"})
+    EXPECT_GT(hypervolume_after(settings(algorithm, 1, 120)), 1.05 * hypervolume_after(settings("random", 1, 120)))
+        << algorithm;
+}
+
 TEST(Learned, TestsFurtherSpecimensWhereTheyDecide) {
   SearchSettings chosen = settings("learned", 5, 160);
   chosen.learned.specimens = 4;
@@ -364,7 +370,7 @@ TEST_P(EveryModelSearch, AnInterruptedSearchComputesNoBatchTwice) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Algorithms, EveryModelSearch,
-                         ::testing::Values("learned", "tsemo", "dgemo"),
+                         ::testing::Values("learned", "tsemo", "dgemo", "nehvi", "morbo", "egbo"),
                          [](const auto& algorithm) { return algorithm.param; });
 
 // The last batch of a small budget is shorter than the one that a larger budget asks for.

@@ -9,6 +9,8 @@
 #include "base/random.hpp"
 #include "explore/rivals/family_front.hpp"
 #include "explore/rivals/front_discovery.hpp"
+#include "explore/rivals/morbo.hpp"
+#include "pattern/random_pattern.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -67,6 +69,36 @@ TEST(FamilyFront, WithAPricePerFamilyItComesNearTheBest) {
   }
   EXPECT_GE(found_sum, best_sum - 1e-9);
   EXPECT_LT(found_sum, 1.05 * best_sum);
+}
+
+/// Samples in batches of 10, each batch as good in both properties as the factor says.
+std::vector<Evaluated> samples_of(const std::vector<double>& factors) {
+  RandomStream random(4, "test");
+  std::vector<Evaluated> samples;
+  for (const double factor : factors) {
+    const pattern::Pattern near = samples.empty() ? pattern::random_pattern(random) : samples.front().pattern;
+    for (int i = 0; i < 10; ++i) {
+      const bool is_first = samples.size() < 10;
+      const pattern::Pattern pattern = is_first && i > 0 ? pattern::random_pattern(random)
+                                                         : pattern::Pattern(near.bits() ^ (samples.size() * 37 % 4096));
+      samples.push_back({pattern, {factor * (1.0 + 0.01 * i) * 1e9, factor * (1.1 - 0.01 * i) * 1e6}});
+    }
+  }
+  return samples;
+}
+
+TEST(TrustRegions, GrowWhileTheyGrowTheFrontAndRestartWhereTheyDoNot) {
+  const auto first_after = [](const std::vector<double>& factors) {
+    return trust_regions(samples_of(factors), 10).front();
+  };
+  EXPECT_EQ(first_after({1.0}).radius, 16);
+  EXPECT_EQ(first_after({1.0, 2.0, 3.0}).radius, 32);
+  EXPECT_EQ(first_after({1.0, 0.1, 0.1, 0.1}).radius, 8);
+  EXPECT_EQ(first_after({1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}).radius, 4);
+  const TrustRegion stuck = first_after({1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1});
+  const TrustRegion restarted = first_after({1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1});
+  EXPECT_EQ(restarted.radius, 16);
+  EXPECT_NE(restarted.centre, stuck.centre);
 }
 
 /// |x - a|^2 and |x - b|^2: the front is the straight line from a to b.
