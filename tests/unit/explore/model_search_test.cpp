@@ -245,7 +245,7 @@ TEST(Learned, ABatchIsChosenFromPatternsThatAreApart) {
   EXPECT_LT(nearest_in_batches(1), 4);
 }
 
-TEST(Estimated, TheFrontIsNotThatOfTheLuckiest) {
+TEST(Estimated, TheFrontIsFreeOfSelectionBias) {
   const auto random = make_search(settings("random", 6, 300));
   NoisyStandIn tested;
   for (auto batch = random->ask(); !batch.empty(); batch = random->ask()) {
