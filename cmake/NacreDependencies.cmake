@@ -3,6 +3,7 @@ set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON) # also for a project that has nacre as
 include(NacreLibraries)
 find_package(PNG REQUIRED)
 find_package(GIF 5 REQUIRED)
+find_package(LibArchive REQUIRED)
 if(NACRE_TESTS)
   find_package(GTest)
   if(NOT GTest_FOUND)

@@ -103,6 +103,15 @@ void Canvas::text(CanvasPoint at, const std::string& text, const TextStyle& styl
   cairo_restore(context_.get());
 }
 
+void Canvas::paint(const Picture& picture) {
+  cairo_surface_flush(surface_.get());
+  unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
+  const int stride = cairo_image_surface_get_stride(surface_.get());
+  for (int y = 0; y < picture.height; ++y)
+    std::memcpy(bytes + y * stride, &picture.rgb[y * picture.width], static_cast<std::size_t>(picture.width) * 4);
+  cairo_surface_mark_dirty(surface_.get());
+}
+
 Picture Canvas::picture() const {
   cairo_surface_flush(surface_.get());
   Picture picture;

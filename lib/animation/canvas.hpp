@@ -45,6 +45,8 @@ class Canvas {
   void text(CanvasPoint at, const std::string& text, const TextStyle& style = {});
   double text_width(const std::string& text, const TextStyle& style);
 
+  /// Paints a picture of as many points over all there is.
+  void paint(const Picture& picture);
   Picture picture() const;
 
  private:

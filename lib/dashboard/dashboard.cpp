@@ -47,6 +47,7 @@ Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
       run_(settings_.run_folder),
       family_folder_(settings_.family_folder),
       note_folder_(settings_.run_folder / "notes"),
+      print_jobs_(settings_.run_folder / "laboratory" / "jobs"),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
 
 const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
@@ -63,6 +64,9 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
                                                       {"/api/specimen", &Dashboard::specimen},
                                                       {"/api/notes", &Dashboard::notes},
                                                       {"/api/photo", &Dashboard::photo},
+                                                      {"/api/jobs", &Dashboard::jobs},
+                                                      {"/api/job", &Dashboard::job},
+                                                      {"/api/tray", &Dashboard::tray},
                                                       {"/api/diagnosis", &Dashboard::diagnosis},
                                                       {"/api/next", &Dashboard::next},
                                                       {"/api/maps", &Dashboard::maps},
@@ -75,11 +79,12 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
 
 const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
   static const std::map<std::string, Route> routes = {
-      {"/api/measurement", &Dashboard::enter}, {std::string(kImportPath), &Dashboard::import_files},
-      {"/api/review", &Dashboard::review},     {"/api/approval", &Dashboard::decide},
-      {"/api/amendment", &Dashboard::amend},   {"/api/withdrawal", &Dashboard::withdraw},
-      {"/api/simulate", &Dashboard::simulate}, {"/api/grouping", &Dashboard::group},
-      {"/api/note", &Dashboard::note}};
+      {"/api/measurement", &Dashboard::enter},   {std::string(kImportPath), &Dashboard::import_files},
+      {"/api/review", &Dashboard::review},       {"/api/approval", &Dashboard::decide},
+      {"/api/amendment", &Dashboard::amend},     {"/api/withdrawal", &Dashboard::withdraw},
+      {"/api/simulate", &Dashboard::simulate},   {"/api/grouping", &Dashboard::group},
+      {"/api/note", &Dashboard::note},           {"/api/job", &Dashboard::make_job},
+      {"/api/discard", &Dashboard::discard_job}, {"/api/printed", &Dashboard::print}};
   return routes;
 }
 

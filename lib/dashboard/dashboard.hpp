@@ -15,6 +15,7 @@
 #include "dashboard/import_reader.hpp"
 #include "dashboard/maps.hpp"
 #include "dashboard/notes.hpp"
+#include "dashboard/print_jobs.hpp"
 #include "dashboard/runs_view.hpp"
 #include "game/scenario.hpp"
 #include "run/run.hpp"
@@ -58,6 +59,9 @@ class Dashboard {
   Response specimen(const Request&);
   Response notes(const Request&);
   Response photo(const Request&);
+  Response jobs(const Request&);
+  Response job(const Request&);
+  Response tray(const Request&);
   Response diagnosis(const Request&);
   Response next(const Request&);
   Response maps(const Request&);
@@ -74,6 +78,9 @@ class Dashboard {
   Response simulate(const Request&);
   Response group(const Request&);
   Response note(const Request&);
+  Response make_job(const Request&);
+  Response discard_job(const Request&);
+  Response print(const Request&);
 
   /// A design whose fracture is asked for, and with which model: the number of a round or the name of a family.
   struct FractureRequest {
@@ -85,6 +92,8 @@ class Dashboard {
   static FractureRequest fracture_request(const Request& request, const pattern::Design& design,
                                           const std::string& model);
   static FractureRequest fracture_request(const Request& request);
+  /// The folder of the print job that the query names.
+  std::filesystem::path job_folder(const Request& request) const;
   /// The error says which model is missing.
   Result<material::ParameterSet> parameters_of(const FractureRequest& fracture);
   std::optional<material::ParameterSet> model_of_game(const std::string& model);
@@ -107,6 +116,7 @@ class Dashboard {
   std::string rounds_;  ///< JSON; of 10,000 specimens it takes a while
   FamilyFolder family_folder_;
   NoteFolder note_folder_;
+  PrintJobs print_jobs_;
   std::mutex modulus_mutex_;  ///< one modulus at a time, however many ask
   std::atomic<int> moduli_asked_ = 0;
   Films films_;

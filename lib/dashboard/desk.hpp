@@ -3,6 +3,7 @@
 // that routes are tested without a network.
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -74,6 +75,22 @@ struct Withdrawal {
   std::string by, why;
 };
 
+/// A print job that a person asks for, of all that is ordered and not printed.
+struct PrintJobWish {
+  std::string name = {};     ///< labels begin with it; empty: after the round
+  std::string printer = {};  ///< fabricate::named_printers(); empty: the first
+  bool tray_stacks = true;   ///< also one stack of slices for all of a tray
+  std::optional<std::array<double, 2>> tray_mm = {};
+};
+
+/// A person's word that a tray of a job of the run is printed, or is not after all.
+struct PrintedTray {
+  std::string job;
+  int tray = 1;
+  bool printed = true;
+  std::string by;
+};
+
 /// The run as its laboratory sees it.
 struct Laboratory {
   game::LaboratoryFacts facts;
@@ -129,6 +146,9 @@ class Desk {
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder,
                              const std::vector<families::SeedFamily>& families) = 0;
+  /// Writes down that a tray is printed, or takes that back while none of its specimens is measured; the build sheet
+  /// says what lies on it. The game need not be played.
+  virtual Answer print(const PrintedTray& tray, const std::filesystem::path& build_sheet) = 0;
   /// Writes a note into `folder`. Refused where that takes no more.
   virtual Answer keep_note(const NoteFolder& folder, const Note& note) = 0;
 };

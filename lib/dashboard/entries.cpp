@@ -265,6 +265,48 @@ Result<Note> note_from_json(std::string_view text) {
   return Note{*about, *name, *by, *words, std::move(*photo)};
 }
 
+Result<PrintJobWish> print_job_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto name = text_of(*object, "name"), printer = text_of(*object, "printer");
+  for (const auto* each : {&name, &printer})
+    if (!*each) return tl::unexpected(each->error());
+  PrintJobWish wish{.name = *name, .printer = *printer};
+  if (object->contains("tray_stacks")) {
+    const auto stacks = flag_of(*object, "tray_stacks");
+    if (!stacks) return tl::unexpected(stacks.error());
+    wish.tray_stacks = *stacks;
+  }
+  const auto tray = object->find("tray_mm");
+  if (tray == object->end() || tray->is_null()) return wish;
+  const bool are_two = tray->is_array() && tray->size() == 2 && tray->at(0).is_number() && tray->at(1).is_number();
+  if (!are_two) return fail("tray_mm: {}, expected two numbers", typed(*tray));
+  wish.tray_mm = {tray->at(0).get<double>(), tray->at(1).get<double>()};
+  return wish;
+}
+
+Result<PrintedTray> printed_tray_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto job = text_of(*object, "job", true), by = text_of(*object, "by", true);
+  const auto printed = flag_of(*object, "printed");
+  for (const auto* each : {&job, &by})
+    if (!*each) return tl::unexpected(each->error());
+  if (!printed) return tl::unexpected(printed.error());
+  const auto tray = object->find("tray");
+  constexpr std::int64_t kMostTrays = 10'000;
+  if (tray == object->end() || !tray->is_number_integer() || tray->get<std::int64_t>() < 1 ||
+      tray->get<std::int64_t>() > kMostTrays)
+    return fail("tray: {}, expected 1 to {}", tray == object->end() ? "is missing" : typed(*tray), kMostTrays);
+  return PrintedTray{*job, tray->get<int>(), *printed, *by};
+}
+
+Result<std::string> job_name_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  return text_of(*object, "job", true);
+}
+
 bool is_model_name(std::string_view name) { return is_plain_name(name, families::kLongestFamilyName); }
 
 Result<SimulationRequest> simulation_request_from_json(std::string_view text) {

@@ -25,6 +25,15 @@ Result<Amendment> amendment_from_json(std::string_view text);
 /// `order` or `design` (canonical name), `withdrawn`, `by`, `why` (may be empty where an order is given again).
 Result<Withdrawal> withdrawal_from_json(std::string_view text);
 
+/// `name`, `printer`, `tray_stacks`, `tray_mm` (two numbers); all may be absent.
+Result<PrintJobWish> print_job_from_json(std::string_view text);
+
+/// `job`, `tray`, `printed`, `by`.
+Result<PrintedTray> printed_tray_from_json(std::string_view text);
+
+/// `job`: the name of a print job.
+Result<std::string> job_name_from_json(std::string_view text);
+
 /// `about`, `name`, `by`, `text` (lines end with LF), `photo` (base64, may be absent); a text or a photo at least.
 Result<Note> note_from_json(std::string_view text);
 

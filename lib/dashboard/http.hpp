@@ -1,6 +1,7 @@
 #pragma once
 // Requests and responses as values: routes are functions of them and know nothing of sockets.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ struct Response {
   std::string type = "application/json";
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
+  /// In place of a body: hands its bytes to `send` as they come, until that returns false. May throw InputError, which
+  /// cuts the response off.
+  std::function<void(const std::function<bool(std::string_view)>& send)> stream = {};
 };
 
 /// Numbers that are not finite become null, bytes that are not UTF-8 a replacement sign.

@@ -10,6 +10,7 @@
 #include "dashboard/nodes_view.hpp"
 #include "dashboard/notes.hpp"
 #include "dashboard/page_fields.hpp"
+#include "dashboard/print_jobs.hpp"
 #include "dashboard/rounds_view.hpp"
 #include "dashboard/run_view.hpp"
 #include "dashboard/runs_view.hpp"
@@ -30,6 +31,7 @@ std::string page_types() {
   types.type_of<NextRoundRow>();
   types.type_of<SpecimenStoryRow>();
   types.type_of<NotesRow>();
+  types.type_of<PrintJobsRow>();
   types.type_of<DiagnosisRow>();
   types.type_of<FamiliesRow>();
   return "// The server's responses, SI units (docs/FORMATS.md, \"Dashboard\"). Written by nacre_page_types from the "

@@ -48,7 +48,16 @@ void send(const Response& from, httplib::Response& to) {
                   "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: "
                   "blob:; connect-src 'self'; font-src "
                   "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-  to.set_content(from.body, from.type);
+  if (!from.stream) return to.set_content(from.body, from.type);
+  to.set_chunked_content_provider(from.type, [stream = from.stream](std::size_t, httplib::DataSink& sink) {
+    try {
+      stream([&](std::string_view bytes) { return sink.write(bytes.data(), bytes.size()); });
+    } catch (const InputError&) {
+      return false;  // cut off: the browser says that the file is not whole
+    }
+    sink.done();
+    return true;
+  });
 }
 
 using Uploads = std::counting_semaphore<kUploads>;

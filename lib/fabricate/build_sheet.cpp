@@ -12,6 +12,9 @@
 #include "fabricate/build_sheet_html.hpp"
 #include "fabricate/preview.hpp"
 #include "fabricate/price.hpp"
+#include "fabricate/slice_png.hpp"
+#include "fabricate/tray_preview.hpp"
+#include "fabricate/tray_stack.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "pattern/coupons.hpp"
 
@@ -24,6 +27,8 @@ constexpr const char* kSheetName = "build_sheet.json";
 constexpr const char* kPeoplesSheetName = "build_sheet.html";
 constexpr const char* kTableName = "specimens.csv";
 constexpr const char* kPreviewName = "preview.png";
+
+std::string tray_folder(int tray) { return fmt::format("trays/{}", tray); }
 
 std::string slices_of(const WrittenModel& written) {
   return written.folder.empty() ? "slices" : written.folder + "/slices";
@@ -88,6 +93,20 @@ Json specimen_json(const Job& job, const PlacedSpecimen& specimen) {
           {"y_mm", specimen.y_mm}};
 }
 
+Json tray_json(const Job& job, int tray, const WrittenTray& written) {
+  Json json{{"tray", tray}, {"batch", job.batch(tray)}, {"preview", tray_folder(tray) + "/" + kPreviewName}};
+  if (written.count.layers == 0) return json;
+  const Printer& printer = job.request.printer;
+  json["slices"] = tray_folder(tray) + "/slices";
+  json["slice_count"] = written.count.layers;
+  json["columns"] = written.count.columns;
+  json["rows"] = written.count.rows;
+  json["size_mm"] = {written.count.columns * pitch_mm(printer.dpi_x), written.count.rows * pitch_mm(printer.dpi_y),
+                     written.count.layers * pitch_mm(printer.dpi_z)};
+  json["corner_mm"] = {written.corner_x_mm, written.corner_y_mm};
+  return json;
+}
+
 Json price_json(const Price& price) {
   Json json;
   const auto field = [&](const char* name, const auto& value) { json[name] = value; };
@@ -95,32 +114,43 @@ Json price_json(const Price& price) {
   return json;
 }
 
-Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
+Json printer_json(const Printer& printer) {
+  const SliceColours colours = colours_of(printer.pixels);
+  return {{"dpi", {printer.dpi_x, printer.dpi_y, printer.dpi_z}},
+          {"layer_um", 1e3 * pitch_mm(printer.dpi_z)},
+          {"tray_mm", {printer.tray_x_mm, printer.tray_y_mm}},
+          {"pixels", printer.pixels == SlicePixels::rgba ? "rgba" : "indexed"},
+          {"colours",
+           {{"none", pattern::html_colour(colours.none)},
+            {"soft", pattern::html_colour(colours.soft)},
+            {"rigid", pattern::html_colour(colours.rigid)}}}};
+}
+
+Json sheet_json(const Job& job, const WrittenJob& written) {
   const JobRequest& request = job.request;
-  const Printer& printer = request.printer;
-  Json models = Json::array(), specimens = Json::array();
-  for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
+  Json models = Json::array(), specimens = Json::array(), trays = Json::array();
+  for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written.models[i]));
+  for (int tray = 1; tray <= job.trays; ++tray) trays.push_back(tray_json(job, tray, written.trays[tray - 1]));
   for (const PlacedSpecimen& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
   const Resin resin = resin_of(job, written);
-  return {
-      {"job", request.name},
-      {"seed", request.seed},
-      {"printer",
-       {{"dpi", {printer.dpi_x, printer.dpi_y, printer.dpi_z}}, {"tray_mm", {printer.tray_x_mm, printer.tray_y_mm}}}},
-      {"palette", {"none", "soft", "rigid"}},
-      {"interface", request.interface == Interface::engineered ? "engineered" : "sharp"},
-      {"grips", request.grips == GripMaterial::pattern ? "pattern" : "rigid"},
-      {"cut", request.notch.print_cut ? "printed" : "to be milled"},
-      {"trays", job.trays},
-      {"price", price_json(price_of(job))},
-      {"resin_ml", {{"soft", resin.soft_ml}, {"rigid", resin.rigid_ml}}},
-      {"models", models},
-      {"specimens", specimens}};
+  return {{"job", request.name},
+          {"seed", request.seed},
+          {"printer", printer_json(request.printer)},
+          {"palette", {"none", "soft", "rigid"}},
+          {"interface", request.interface == Interface::engineered ? "engineered" : "sharp"},
+          {"grips", request.grips == GripMaterial::pattern ? "pattern" : "rigid"},
+          {"cut", request.notch.print_cut ? "printed" : "to be milled"},
+          {"trays", job.trays},
+          {"price", price_json(price_of(job))},
+          {"resin_ml", {{"soft", resin.soft_ml}, {"rigid", resin.rigid_ml}}},
+          {"tray_stacks", trays},
+          {"models", models},
+          {"specimens", specimens}};
 }
 
 /// A sheet without the figures that were counted in the files, and what follows from the job and its rates.
 Json plan_of(Json sheet) {
-  for (const char* derived : {"price", "resin_ml"}) sheet.erase(derived);
+  for (const char* derived : {"price", "resin_ml", "tray_stacks"}) sheet.erase(derived);
   for (Json& model : sheet.at("models")) {
     for (const char* counted :
          {"slices", "slice_count", "columns", "rows", "droplets", "rigid_fraction", "rigid_fraction_by_layer"})
@@ -163,19 +193,30 @@ std::optional<std::filesystem::path> place_of(const Json& model, const std::file
   return folder / name;
 }
 
-/// The slices and the preview of one model.
-void forget_model(const Json& model, const std::filesystem::path& folder) {
+/// The slices and the preview in `place`, and the folder unless it is that of the job.
+void forget_stack(const std::filesystem::path& place, int slice_count, SlicePixels pixels,
+                  const std::filesystem::path& job) {
   constexpr int kMostSlices = 100'000;  // limits the effect of a damaged sheet
-  const auto place = place_of(model, folder);
-  if (!place) return;
-  const std::filesystem::path slices = *place / "slices";
+  const std::filesystem::path slices = place / "slices";
   if (!std::filesystem::is_symlink(slices)) {
-    const int count = std::min(model.at("slice_count").get<int>(), kMostSlices);
-    for (int layer = 0; layer < count; ++layer) take_away(slices / slice_name(layer));
+    for (int layer = 0; layer < std::min(slice_count, kMostSlices); ++layer)
+      take_away(slices / slice_name(layer, pixels));
     take_away_when_empty(slices);
   }
-  take_away(*place / kPreviewName);
-  if (*place != folder) take_away_when_empty(*place);
+  take_away(place / kPreviewName);
+  if (place != job) take_away_when_empty(place);
+}
+
+/// Trays by their numbers, whatever paths a damaged sheet names.
+void forget_trays(const Json& sheet, SlicePixels pixels, const std::filesystem::path& folder) {
+  const std::filesystem::path trays = folder / "trays";
+  if (std::filesystem::is_symlink(trays)) return;
+  int tray = 0;
+  for (const Json& each : sheet.value("tray_stacks", Json::array())) {
+    const std::filesystem::path place = folder / tray_folder(++tray);
+    if (!std::filesystem::is_symlink(place)) forget_stack(place, each.value("slice_count", 0), pixels, folder);
+  }
+  take_away_when_empty(trays);
 }
 
 /// Removes what the build sheet in `folder` lists; does nothing without a readable sheet.
@@ -184,7 +225,12 @@ void forget_models(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / kSheetName, unreadable)) return;
   try {
     const Json sheet = Json::parse(read_file(folder / kSheetName));
-    for (const Json& model : sheet.at("models")) forget_model(model, folder);
+    const bool is_rgba = sheet.value("/printer/pixels"_json_pointer, "") == "rgba";
+    const SlicePixels pixels = is_rgba ? SlicePixels::rgba : SlicePixels::indexed;
+    for (const Json& model : sheet.at("models"))
+      if (const auto place = place_of(model, folder))
+        forget_stack(*place, model.at("slice_count").get<int>(), pixels, folder);
+    forget_trays(sheet, pixels, folder);
   } catch (const Json::exception&) {
     return;  // a file of something else
   }
@@ -192,20 +238,20 @@ void forget_models(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Resin resin_of(const Job& job, const std::vector<WrittenModel>& written) {
+Resin resin_of(const Job& job, const WrittenJob& written) {
   const Printer& printer = job.request.printer;
   constexpr double kMlPerCubicMm = 1e-3;
   const double droplet_ml = kMlPerCubicMm * pitch_mm(printer.dpi_x) * pitch_mm(printer.dpi_y) * pitch_mm(printer.dpi_z);
   Resin resin;
   for (std::size_t i = 0; i < job.models.size(); ++i) {
     const double each_ml = droplet_ml * job.models[i].wanted.replicates;
-    resin.soft_ml += each_ml * static_cast<double>(written[i].count.total[static_cast<int>(Droplet::soft)]);
-    resin.rigid_ml += each_ml * static_cast<double>(written[i].count.total[static_cast<int>(Droplet::rigid)]);
+    resin.soft_ml += each_ml * static_cast<double>(written.models[i].count.total[static_cast<int>(Droplet::soft)]);
+    resin.rigid_ml += each_ml * static_cast<double>(written.models[i].count.total[static_cast<int>(Droplet::rigid)]);
   }
   return resin;
 }
 
-std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
+std::string build_sheet_json(const Job& job, const WrittenJob& written) {
   return sheet_json(job, written).dump(2) + "\n";
 }
 
@@ -216,7 +262,9 @@ bool holds_another_job(const std::filesystem::path& folder, const Job& job) {
            read_file(folder / kTableName) != specimen_table(job);
   }
   try {
-    const Json planned = Json::parse(sheet_json(job, std::vector<WrittenModel>(job.models.size())).dump());
+    const WrittenJob nothing{.models = std::vector<WrittenModel>(job.models.size()),
+                             .trays = std::vector<WrittenTray>(job.trays)};
+    const Json planned = Json::parse(sheet_json(job, nothing).dump());
     return plan_of(Json::parse(read_file(folder / kSheetName))) != plan_of(planned);
   } catch (const Json::exception&) {
     return true;
@@ -234,23 +282,35 @@ std::string specimen_table(const Job& job) {
   return table;
 }
 
-std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path& folder, const JobProgress& progress) {
-  std::vector<WrittenModel> written;
-  const auto say = [&](double share_of_model, std::string_view what) {
-    if (progress)
-      progress((static_cast<double>(written.size()) + share_of_model) / static_cast<double>(job.models.size()), what);
+WrittenJob write_job(const Job& job, const std::filesystem::path& folder, const JobProgress& progress) {
+  const Printer& printer = job.request.printer;
+  WrittenJob written;
+  std::vector<DropletPlan> plans;
+  for (const PrintModel& model : job.models) plans.emplace_back(model.plan, printer);
+  const auto stacks = static_cast<double>(job.models.size()) + job.trays;
+  const auto say = [&](double share_of_stack, std::string_view what) {
+    if (progress) progress((written.models.size() + written.trays.size() + share_of_stack) / stacks, what);
   };
-  for (const PrintModel& model : job.models) {
-    const DropletPlan plan(model.plan, job.request.printer);
-    WrittenModel stack{.folder = job.models.size() == 1 ? "" : model.name, .count = {}};
-    const std::filesystem::path place = folder / stack.folder;
-    constexpr double kWriting = 0.7, kCounting = 0.9;
-    write_slices(plan, job.request.printer, place / "slices",
-                 [&](int layers) { say(kWriting * layers / plan.layers(), model.name); });
-    stack.count = count_slices(place / "slices");
-    say(kCounting, model.name);
-    write_preview(plan, place / kPreviewName);
-    written.push_back(std::move(stack));
+  const auto write_stack = [&](const SliceStack& stack, const std::filesystem::path& place, const std::string& what) {
+    constexpr double kWriting = 0.7;
+    write_slices(stack, printer, place / "slices", [&](int layers) { say(kWriting * layers / stack.layers(), what); });
+    return count_slices(place / "slices", printer.pixels);
+  };
+  for (std::size_t i = 0; i < job.models.size(); ++i) {
+    const std::string& name = job.models[i].name;
+    WrittenModel stack{.folder = job.models.size() == 1 ? "" : name, .count = {}};
+    stack.count = write_stack(plans[i], folder / stack.folder, name);
+    write_preview(plans[i], folder / stack.folder / kPreviewName);
+    written.models.push_back(std::move(stack));
+  }
+  for (int tray = 1; tray <= job.trays; ++tray) {
+    const std::filesystem::path place = folder / tray_folder(tray);
+    make_folder(place);
+    const TrayStack stack(job, tray, plans);
+    WrittenTray files{.count = {}, .corner_x_mm = stack.corner_x_mm(), .corner_y_mm = stack.corner_y_mm()};
+    if (job.request.tray_stacks) files.count = write_stack(stack, place, fmt::format("tray {}", tray));
+    write_tray_preview(job, tray, plans, place / kPreviewName);
+    written.trays.push_back(std::move(files));
   }
   if (!std::filesystem::exists(folder / kTableName))  // people fill it in
     write_file_atomically(folder / kTableName, specimen_table(job));

@@ -5,7 +5,7 @@
 
 namespace nacre::fabricate {
 
-/// One self-contained page, with a drawing of each tray.
-std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written);
+/// One page, which shows the pictures of its folder (build_sheet.hpp).
+std::string build_sheet_html(const Job& job, const WrittenJob& written);
 
 }  // namespace nacre::fabricate

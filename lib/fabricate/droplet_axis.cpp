@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/result.hpp"
 #include "fabricate/printer.hpp"
 
 namespace nacre::fabricate {
@@ -16,23 +15,6 @@ std::int64_t droplets_before(std::int64_t position_um, std::int64_t dpi) {
 }
 
 }  // namespace
-
-int layers_of(double thickness_mm, const Printer& printer) {
-  return std::max(1, static_cast<int>(std::lround(thickness_mm / pitch_mm(printer.dpi_z))));
-}
-
-void check_printer(const Printer& printer) {
-  for (const int dpi : {printer.dpi_x, printer.dpi_y, printer.dpi_z}) {
-    if (dpi < kLowestDpi || dpi > kHighestDpi) {
-      throw InputError::format("printer resolution {} dpi: expected {} to {}", dpi, kLowestDpi, kHighestDpi);
-    }
-  }
-  for (const double side_mm : {printer.tray_x_mm, printer.tray_y_mm}) {
-    if (!(side_mm >= 10.0 && side_mm <= 10'000.0)) {
-      throw InputError::format("tray of {} mm: expected 10 to 10000 mm", side_mm);
-    }
-  }
-}
 
 DropletAxis::DropletAxis(int dpi, std::int64_t length_um, std::int64_t pixel_um)
     : pitch_mm_(pitch_mm(dpi)), dpi_(dpi), length_um_(length_um), pixel_um_(pixel_um) {

@@ -51,17 +51,6 @@ std::uint32_t threshold_of(double probability) {
 
 }  // namespace
 
-DropletCount count_droplets(const Slice& slice) {
-  DropletCount count{};
-  for (const Droplet droplet : slice.droplets) ++count[static_cast<std::size_t>(droplet)];
-  return count;
-}
-
-double rigid_fraction(const DropletCount& count) {
-  const auto printed = static_cast<double>(count[1] + count[2]);
-  return printed > 0.0 ? static_cast<double>(count[2]) / printed : 0.0;
-}
-
 DropletPlan::DropletPlan(const SpecimenPlan& specimen, const Printer& printer)
     : specimen_(checked(specimen, printer)),
       turned_(specimen.orientation_deg == 90.0),

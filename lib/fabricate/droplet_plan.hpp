@@ -1,20 +1,16 @@
 #pragma once
 // The material of every droplet of a specimen (thesis 2.2.1, 2.2.3).
 
-#include <array>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "fabricate/droplet_axis.hpp"
 #include "fabricate/printer.hpp"
+#include "fabricate/slice.hpp"
 #include "fabricate/specimen.hpp"
 #include "pattern/design.hpp"
 
 namespace nacre::fabricate {
-
-/// Material of a droplet, as written in slices.
-enum class Droplet : std::uint8_t { none = 0, soft = 1, rigid = 2 };
 
 /// How the interface between unlike pixels is printed.
 enum class Interface {
@@ -41,24 +37,8 @@ struct SpecimenPlan {
   std::uint64_t seed = 1;  ///< of homogeneous mixtures
 };
 
-/// Rows x columns of droplets, row 0 at the printer's far end (the top of a layout file), column 0 at the left.
-struct Slice {
-  int columns = 0;
-  int rows = 0;
-  std::vector<Droplet> droplets;  ///< row after row
-  Droplet at(int column, int row) const { return droplets[static_cast<std::size_t>(row) * columns + column]; }
-  bool operator==(const Slice&) const = default;
-};
-
-/// Number of droplets of each material: none, soft, rigid.
-using DropletCount = std::array<std::int64_t, 3>;
-DropletCount count_droplets(const Slice& slice);
-
-/// Share of rigid droplets among those printed; 0 when none is.
-double rigid_fraction(const DropletCount& count);
-
 /// Decides the material of every droplet, layer by layer; about 2 bytes of memory per droplet of a layer.
-class DropletPlan {
+class DropletPlan : public SliceStack {
  public:
   /// Throws InputError for an orientation other than 0 or 90, a thickness outside 0.1 to 50 mm, an impossible
   /// notch, or a printer that check_printer() refuses.
@@ -66,13 +46,13 @@ class DropletPlan {
 
   int columns() const { return x_.droplets(); }
   int rows() const { return y_.droplets(); }
-  int layers() const { return layers_; }
-  /// Whether all layers are the same: patterns and pure materials are, mixtures are not.
-  bool layers_are_alike() const { return !random_; }
-
-  /// The droplets of layer 0 <= `layer` < layers(). Depends on (plan, seed, layer) alone. A mixture's droplet is rigid
-  /// with the probability phi of the design (2.2.1), independent of all others.
-  Slice slice(int layer) const;
+  int layers() const override { return layers_; }
+  /// All layers of patterns and pure materials are the same, no two of a mixture are.
+  bool is_like_before(int layer) const override { return layer > 0 && !random_; }
+  bool is_noise(int) const override { return random_; }
+  /// Depends on (plan, seed, layer) alone. A mixture's droplet is rigid with the probability phi of the design (2.2.1),
+  /// independent of all others.
+  Slice slice(int layer) const override;
 
   const DropletAxis& x() const { return x_; }
   const DropletAxis& y() const { return y_; }

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
-#include <optional>
+#include <map>
 
 #include "base/hash.hpp"
 #include "base/names.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "fabricate/packing.hpp"
 #include "pattern/coupons.hpp"
 
 namespace nacre::fabricate {
@@ -73,74 +73,49 @@ std::vector<std::pair<std::size_t, int>> random_blocks(const std::vector<PrintMo
   return order;
 }
 
-/// Fills a tray in rows ("shelves") from the front; a specimen goes on the first shelf that has room for it.
-class Tray {
- public:
-  /// A shelf takes only specimens that are at least `least_fill` of its depth.
-  Tray(const Printer& printer, double gap_mm, double least_fill)
-      : printer_(printer), gap_mm_(gap_mm), least_fill_(least_fill) {}
+/// Numbers trays by the first of their specimens.
+void number_trays(std::vector<PlacedSpecimen>& specimens) {
+  std::map<int, int> numbers;
+  for (PlacedSpecimen& specimen : specimens)
+    specimen.tray = numbers.emplace(specimen.tray, static_cast<int>(numbers.size()) + 1).first->second;
+}
 
-  /// Front left corner of the place found; nothing when the tray is full.
-  std::optional<std::pair<double, double>> place(const PrintModel& model) {
-    for (Shelf& shelf : shelves_) {
-      const bool too_deep = model.size_y_mm > shelf.depth_mm,
-                 too_shallow = model.size_y_mm < least_fill_ * shelf.depth_mm;
-      if (too_deep || too_shallow || shelf.used_mm + model.size_x_mm + 2 * gap_mm_ > printer_.tray_x_mm) continue;
-      return put(shelf, model);
-    }
-    const double begin_mm = shelves_.empty() ? gap_mm_ : shelves_.back().begin_mm + shelves_.back().depth_mm + gap_mm_;
-    if (begin_mm + model.size_y_mm + gap_mm_ > printer_.tray_y_mm ||
-        model.size_x_mm + 2 * gap_mm_ > printer_.tray_x_mm) {
-      return std::nullopt;
-    }
-    shelves_.push_back({begin_mm, model.size_y_mm, 0.0});
-    return put(shelves_.back(), model);
-  }
-
- private:
-  struct Shelf {
-    double begin_mm, depth_mm, used_mm;
-  };
-  std::pair<double, double> put(Shelf& shelf, const PrintModel& model) const {
-    const double x_mm = shelf.used_mm + gap_mm_;
-    shelf.used_mm = x_mm + model.size_x_mm;
-    return {x_mm, shelf.begin_mm};
-  }
-  Printer printer_;
-  double gap_mm_;
-  double least_fill_;
-  std::vector<Shelf> shelves_;
-};
-
-/// Puts the specimens on trays in their random order, each on the first tray that has room.
-void place_all(Job& job, double least_fill) {
-  job.specimens.clear();
+/// Packs the specimens. Of those of one size, which lies where follows their random order: the packing hangs on sizes
+/// alone.
+void place_all(Job& job) {
   const JobRequest& request = job.request;
-  std::vector<Tray> trays;
-  for (const auto& [index, replicate] : random_blocks(job.models, request.seed)) {
-    const PrintModel& model = job.models[index];
-    std::optional<std::pair<double, double>> place;
-    std::size_t tray = 0;
-    for (; tray < trays.size() && !place; ++tray) place = trays[tray].place(model);
-    if (!place) {
-      trays.emplace_back(request.printer, request.gap_mm, least_fill);
-      place = trays.back().place(model);
-      tray = trays.size();
-    }
-    if (!place) {
-      throw InputError::format("{}: {} x {} mm with a gap of {} mm does not fit on a tray of {} x {} mm", model.name,
-                               model.size_x_mm, model.size_y_mm, request.gap_mm, request.printer.tray_x_mm,
-                               request.printer.tray_y_mm);
-    }
+  const Printer& printer = request.printer;
+  const auto drawn = random_blocks(job.models, request.seed);
+  std::vector<Rectangle> bases;
+  for (const auto& [index, replicate] : drawn)
+    bases.push_back({job.models[index].size_x_mm, job.models[index].size_y_mm});
+  const std::vector<Place> places = packed(bases, {printer.tray_x_mm, printer.tray_y_mm}, request.gap_mm);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const auto& [index, replicate] = drawn[i];
+    if (places[i].tray == 0)
+      throw InputError::format("{}: {} x {} mm with a gap of {} mm does not fit on a tray of {} x {} mm",
+                               job.models[index].name, bases[i].x_mm, bases[i].y_mm, request.gap_mm, printer.tray_x_mm,
+                               printer.tray_y_mm);
+    job.trays = std::max(job.trays, places[i].tray);
     job.specimens.push_back({.label = {},
                              .model = index,
                              .replicate = replicate,
                              .print_order = 0,
-                             .tray = static_cast<int>(tray),
-                             .x_mm = place->first,
-                             .y_mm = place->second});
+                             .tray = places[i].tray,
+                             .x_mm = places[i].x_mm,
+                             .y_mm = places[i].y_mm});
   }
-  job.trays = trays.size();
+  number_trays(job.specimens);
+}
+
+/// Voxel Print refuses stacks of fewer slices.
+void check_layers(const Job& job) {
+  constexpr int kFewest = 30;
+  if (job.request.printer.pixels != SlicePixels::rgba) return;
+  for (const PrintModel& model : job.models)
+    if (const int layers = layers_of(model.size_z_mm, job.request.printer); layers < kFewest)
+      throw InputError::format("{}: {} mm are {} layers: Voxel Print takes {} at least", model.name, model.size_z_mm,
+                               layers, kFewest);
 }
 
 /// Print order and labels, tray by tray.
@@ -192,11 +167,8 @@ Job plan_job(const JobRequest& request) {
       model.name = fmt::format("{}-{}", name, copy);
     job.models.push_back(std::move(model));
   }
-  // Bars and notched specimens side by side, or on shelves of their own where that saves a tray.
-  Job apart = job;
-  place_all(job, 0.0);
-  place_all(apart, 0.75);
-  if (apart.trays < job.trays) job = std::move(apart);
+  check_layers(job);
+  place_all(job);
   number(job);
   return job;
 }

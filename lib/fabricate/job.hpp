@@ -33,7 +33,8 @@ struct JobRequest {
   Interface interface = Interface::engineered;
   GripMaterial grips = GripMaterial::pattern;
   NotchOptions notch = {};
-  double gap_mm = 5.0;  ///< between specimens, and to the edge of the tray
+  double gap_mm = 5.0;       ///< between specimens, and to the edge of the tray
+  bool tray_stacks = false;  ///< also one stack of slices for all of a tray
   std::uint64_t seed = 1;
 };
 
@@ -65,9 +66,9 @@ struct Job {
 };
 
 /// Plans a job. The order is random in blocks, from the seed: every model takes a place once before any takes one
-/// again, so that drift of the printer falls on all designs alike. Each specimen goes on the first tray, and there on
-/// the first shelf, with room for it; trays are printed one after another. Throws InputError for an empty job, a bad
-/// name, replicates outside 1 to 100, or a specimen larger than the tray.
+/// again, so that drift of the printer falls on all designs alike. Specimens are packed on few trays (packing.hpp),
+/// which are printed one after another. Throws InputError for an empty job, a bad name, replicates outside 1 to 100, a
+/// specimen larger than the tray, or too few layers.
 Job plan_job(const JobRequest& request);
 
 /// The loading programme in words: `monotonic`, `to 2 % strain, back to 0.5 %, on to 2.2 %`.

@@ -17,7 +17,10 @@
 namespace nacre::fabricate {
 namespace {
 
-bool is_slice_name(const std::string& name) {
+constexpr std::string_view kPrefix = "slice_";  // Voxel Print wants one
+
+bool is_slice_name(std::string name) {
+  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
   const std::size_t dot = name.find('.');
   return dot >= 4 && dot != std::string::npos && name.substr(dot) == ".png" &&
          name.find_first_not_of("0123456789") == dot;
@@ -44,28 +47,35 @@ void write_plainly(const std::filesystem::path& path, const std::string& bytes) 
 
 }  // namespace
 
-std::string slice_name(int layer) { return fmt::format("{:04}.png", layer); }
+std::string slice_name(int layer, SlicePixels pixels) {
+  return fmt::format("{}{:04}.png", pixels == SlicePixels::rgba ? kPrefix : "", layer);
+}
 
-void write_slices(const DropletPlan& plan, const Printer& printer, const std::filesystem::path& folder,
+void write_slices(const SliceStack& stack, const Printer& printer, const std::filesystem::path& folder,
                   const std::function<void(int)>& done) {
   empty_folder_of_slices(folder);
-  const bool alike = plan.layers_are_alike();
-  const std::string common = alike ? to_png(plan.slice(0), printer, false) : "";
+  std::vector<int> first;  // of layers that are alike
+  for (int layer = 0; layer < stack.layers(); ++layer)
+    if (!stack.is_like_before(layer)) first.push_back(layer);
+  first.push_back(stack.layers());
   std::mutex reporting;
   int written = 0;
-  parallel_for(plan.layers(), [&](int layer) {
-    write_plainly(folder / slice_name(layer), alike ? common : to_png(plan.slice(layer), printer, true));
+  parallel_for(static_cast<int>(first.size()) - 1, [&](int run) {
+    const std::string png = to_png(stack.slice(first[run]), printer, stack.is_noise(first[run]));
+    for (int layer = first[run]; layer < first[run + 1]; ++layer)
+      write_plainly(folder / slice_name(layer, printer.pixels), png);
     const std::lock_guard lock(reporting);
-    ++written;
+    written += first[run + 1] - first[run];
     if (done) done(written);
   });
 }
 
-StackCount count_slices(const std::filesystem::path& folder) {
+StackCount count_slices(const std::filesystem::path& folder, SlicePixels pixels) {
   StackCount stack;
   std::string last_bytes_hash;
-  while (std::filesystem::exists(folder / slice_name(stack.layers))) {
-    const std::filesystem::path path = folder / slice_name(stack.layers);
+  const auto place_of = [&](int layer) { return folder / slice_name(layer, pixels); };
+  while (std::filesystem::exists(place_of(stack.layers))) {
+    const std::filesystem::path path = place_of(stack.layers);
     // The same file again holds the same droplets.
     std::string bytes_hash = content_hash(read_file(path));
     if (bytes_hash == last_bytes_hash) {
@@ -84,7 +94,8 @@ StackCount count_slices(const std::filesystem::path& folder) {
     for (std::size_t i = 0; i < stack.total.size(); ++i) stack.total[i] += stack.by_layer.back()[i];
     ++stack.layers;
   }
-  if (stack.layers == 0) throw InputError::format("{}: holds no slices, expected 0000.png and so on", folder.string());
+  if (stack.layers == 0)
+    throw InputError::format("{}: holds no slices, expected {} and so on", folder.string(), slice_name(0, pixels));
   return stack;
 }
 

@@ -59,13 +59,23 @@ int show_designs(const DesignsOptions& options) {
 
 struct PrintedOptions {
   std::string job;
+  std::optional<int> tray;
+  bool undo = false;
   std::string run = "logs/latest";
   std::string by = user_name();
 };
 
 int mark_printed(const PrintedOptions& options) {
   const RunAccess run = open_run(options.run);
-  const auto specimens = specimens_of_build_sheet(std::filesystem::path(options.job) / "build_sheet.json");
+  // A folder, or the name of a job that the run knows.
+  const bool is_folder = std::filesystem::is_directory(options.job);
+  const std::filesystem::path job = is_folder ? std::filesystem::path(options.job) : jobs_folder(run) / options.job;
+  const auto specimens = specimens_of_build_sheet(job / "build_sheet.json", options.tray);
+  if (options.undo) {
+    const int taken = forget_printed(run, specimens, measured_names(view_laboratory(run).facts));
+    fmt::print("{} no longer printed\n", counted(taken, "specimen"));
+    return 0;
+  }
   const int added = record_printed(run, specimens, options.by);
   fmt::print("{} printed, {} known already\n", counted(added, "specimen"),
              specimens.size() - static_cast<std::size_t>(added));
@@ -87,7 +97,9 @@ void add_printed(CLI::App& app, Action& action) {
   const auto options = std::make_shared<PrintedOptions>();
   CLI::App& command = add_command(app, action, "printed", "Tell the run that a job of nacre fabricate has been printed",
                                   options, mark_printed);
-  command.add_option("JOB", options->job, "Folder of the print job")->required();
+  command.add_option("JOB", options->job, "Folder of the print job, or its name in the run")->required();
+  command.add_option("--tray", options->tray, "This tray alone")->check(CLI::Range(1, 10'000));
+  command.add_flag("--undo", options->undo, "It is not printed after all; what is measured stays");
   add_run_option(command, options->run);
   command.add_option("--by", options->by, "Who printed it")->default_str("your account");
 }

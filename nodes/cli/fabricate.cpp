@@ -11,6 +11,7 @@
 #include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "dashboard/print_jobs.hpp"
 #include "fabricate/build_sheet.hpp"
 #include "fabricate/price.hpp"
 #include "laboratory_view.hpp"
@@ -44,8 +45,11 @@ struct FabricateOptions {
   std::string interface = "engineered";
   std::string grips = "pattern";
   bool print_cut = false;
-  std::vector<int> dpi = {300, 600, 800};
-  std::vector<double> tray_mm;  ///< empty: the default, or that of the game
+  std::string printer;          ///< empty: the thesis', with the tray of the game
+  std::vector<int> dpi;         ///< empty: the printer's
+  std::string pixels;           ///< empty: the printer's
+  std::vector<double> tray_mm;  ///< empty: the printer's
+  bool tray_stacks = false;
   double gap_mm = 5.0;
   std::uint64_t seed = 1;
   bool replace = false;
@@ -110,37 +114,28 @@ std::vector<WantedSpecimens> wanted_by_name(const FabricateOptions& options) {
   return wanted;
 }
 
-/// What a game has ordered and nobody has printed or measured yet.
-std::vector<WantedSpecimens> wanted_by_game(const LaboratoryView& view) {
-  std::vector<WantedSpecimens> wanted;
-  for (const OrderState& order : view.orders) {
-    const int missing = order.order.replicates - std::max(order.arrived, order.printed);
-    if (order.complete || order.withdrawn || missing <= 0) continue;
-    wanted.push_back(dashboard::wanted(order.order, missing));
-  }
-  return wanted;
-}
-
-/// Whether a specimen of the run is called as those of a batch of this name would be.
-bool names_specimens(const std::string& batch, const game::LaboratoryFacts& facts) {
-  const auto has_label = [&](const std::string& name) {
-    const std::size_t digits = batch.size() + 1;
-    return name.starts_with(batch + "-") && name.size() > digits &&
-           name.find_first_not_of("0123456789", digits) == std::string::npos;
-  };
-  const auto measured = facts.book.specimens();
-  return std::any_of(facts.printed.begin(), facts.printed.end(),
-                     [&](const auto& one) { return has_label(one.label); }) ||
-         std::any_of(measured.begin(), measured.end(), [&](const auto& one) { return has_label(one.specimen); });
-}
-
-/// `batch`, or the first of batch_2, batch_3, ... whose labels the run has not: a label names a measurement.
-std::string free_batch(const std::string& batch, const game::LaboratoryFacts& facts) {
-  std::string name = batch;
-  for (int copy = 2; names_specimens(name, facts); ++copy) name = fmt::format("{}_{}", batch, copy);
+/// The batch's name, or a similar one where the run has specimens or a job called so.
+std::string free_batch(const std::string& batch, const RunAccess& run, const game::LaboratoryFacts& facts) {
+  const std::string name = dashboard::free_job_name(batch, facts, jobs_folder(run));
   if (name != batch)
     remark(fmt::format("the run already has specimens called {}-01, ...: these are called {}-01, ...", batch, name));
   return name;
+}
+
+fabricate::Printer printer_of(const FabricateOptions& options, const fabricate::Printer& usual) {
+  fabricate::Printer printer = options.printer.empty() ? usual : fabricate::printer_of_name(options.printer).printer;
+  if (!options.dpi.empty()) {
+    printer.dpi_x = options.dpi[0];
+    printer.dpi_y = options.dpi[1];
+    printer.dpi_z = options.dpi[2];
+  }
+  if (!options.tray_mm.empty()) {
+    printer.tray_x_mm = options.tray_mm[0];
+    printer.tray_y_mm = options.tray_mm[1];
+  }
+  if (!options.pixels.empty())
+    printer.pixels = options.pixels == "rgba" ? fabricate::SlicePixels::rgba : fabricate::SlicePixels::indexed;
+  return printer;
 }
 
 fabricate::JobRequest request_of(const FabricateOptions& options) {
@@ -153,18 +148,13 @@ fabricate::JobRequest request_of(const FabricateOptions& options) {
     const LaboratoryView view = view_laboratory(run);
     request.rates = dashboard::rates_of(run.scenario);
     request.printer = dashboard::printer_of(run.scenario);
-    request.wanted = wanted_by_game(view);
-    request.name = free_batch(request.name, view.facts);
+    request.wanted = dashboard::unprinted(view.facts);
+    request.name = free_batch(request.name, run, view.facts);
   } else {
     request.wanted = wanted_by_name(options);
   }
-  if (!options.tray_mm.empty()) {
-    request.printer.tray_x_mm = options.tray_mm[0];
-    request.printer.tray_y_mm = options.tray_mm[1];
-  }
-  request.printer.dpi_x = options.dpi[0];
-  request.printer.dpi_y = options.dpi[1];
-  request.printer.dpi_z = options.dpi[2];
+  request.printer = printer_of(options, request.printer);
+  request.tray_stacks = options.tray_stacks;
   request.interface = options.interface == "sharp" ? fabricate::Interface::sharp : fabricate::Interface::engineered;
   request.grips = options.grips == "rigid" ? fabricate::GripMaterial::rigid : fabricate::GripMaterial::pattern;
   request.notch.print_cut = options.print_cut;
@@ -173,11 +163,10 @@ fabricate::JobRequest request_of(const FabricateOptions& options) {
   return request;
 }
 
-void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenModel>& written,
-               const std::string& folder) {
+void print_job(const fabricate::Job& job, const fabricate::WrittenJob& written, const std::string& folder) {
   for (std::size_t i = 0; i < job.models.size(); ++i) {
     const fabricate::PrintModel& model = job.models[i];
-    const fabricate::StackCount& count = written[i].count;
+    const fabricate::StackCount& count = written.models[i].count;
     fmt::print("{}: {} slices of {} x {} droplets, rigid {:.4f} (designed {:.4f}), {} copies\n", model.name,
                count.layers, count.columns, count.rows, fabricate::rigid_fraction(count.total),
                model.wanted.design.rigid_fraction(), model.wanted.replicates);
@@ -208,6 +197,9 @@ int fabricate_job(const FabricateOptions& options) {
   const auto written = fabricate::write_job(
       job, options.out, [&](double share, std::string_view model) { progress.set_share(share, std::string(model)); });
   progress.end();
+  if (options.orders)
+    dashboard::keep_build_sheet(jobs_folder(open_run(options.run)), request.name,
+                                fabricate::build_sheet_json(job, written));
   if (options.json) {
     fmt::print("{}", fabricate::build_sheet_json(job, written));
   } else {
@@ -260,13 +252,21 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"pattern", "rigid"}))
       ->capture_default_str();
   command.add_flag("--print-cut", options->print_cut, "Print the triangular cut instead of milling it");
-  command.add_option("--dpi", options->dpi, "Droplets per inch in x, y, z")
+  std::string printers;
+  for (const fabricate::NamedPrinter& each : fabricate::named_printers())
+    printers += fmt::format("{}{} ({})", printers.empty() ? "" : "; ", each.name, each.words);
+  command.add_option("--printer", options->printer, "Which printer: " + printers)->default_str("thesis");
+  command.add_option("--dpi", options->dpi, "Droplets per inch in x, y, z; default: the printer's")
       ->delimiter(',')
-      ->expected(3)
-      ->capture_default_str();
+      ->expected(3);
+  command
+      .add_option("--pixels", options->pixels,
+                  "Slices: indexed (palette 0 none, 1 soft, 2 rigid) or rgba (a colour each); default: the printer's")
+      ->check(CLI::IsMember({"indexed", "rgba"}));
+  command.add_flag("--tray", options->tray_stacks, "Also one stack of slices for each whole tray");
   command
       .add_option("--tray-mm", options->tray_mm,
-                  "Printable part of the tray, x, y; default: 255,252, with --orders that of the scenario")
+                  "Printable part of the tray, x, y; default: the printer's, with --orders that of the scenario")
       ->delimiter(',')
       ->expected(2);
   command.add_option("--gap-mm", options->gap_mm, "Gap between specimens on the tray")->capture_default_str();

@@ -1,6 +1,6 @@
 #pragma once
 // A run as its laboratory sees it: what is ordered, printed, measured. Read from the validation agent's journal and
-// from the record of what was printed (RUN/laboratory/printed.csv, written by `nacre printed` alone).
+// from the record of what was printed (printed_record.hpp).
 
 #include <filesystem>
 #include <functional>
@@ -8,11 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "dashboard/round_price.hpp"
 #include "game/design_states.hpp"
+#include "printed_record.hpp"
 #include "run/journal_messages.hpp"
 #include "run_access.hpp"
 #include "wire/convert.hpp"
@@ -36,9 +36,6 @@ struct LaboratoryView {
   int round = 1;                                ///< that is measured, or will be next
   bool is_over = false;                         ///< the last round is closed, and with it the family stage
 };
-
-/// A printed specimen and the person who wrote it down.
-using PrintedRow = std::pair<game::PrintedSpecimen, std::string>;
 
 /// A run whose laboratory is looked at again and again: only what was added to the journal is read.
 class LaboratoryReader {
@@ -67,12 +64,5 @@ std::optional<dashboard::RoundPrice> price_of_round(const RunAccess& run, const 
 /// The laboratory looked at once.
 LaboratoryView view_laboratory(const RunAccess& run,
                                const std::function<void(const std::string& payload)>& measured = {});
-
-/// Adds specimens to the record of what was printed, but those that it holds already. Returns how many were new. Throws
-/// InputError, and records nothing, when it holds another specimen of the same label.
-int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by);
-
-/// The specimens of a build sheet (JSON). Throws InputError naming file and key.
-std::vector<game::PrintedSpecimen> specimens_of_build_sheet(const std::filesystem::path& file);
 
 }  // namespace nacre::cli

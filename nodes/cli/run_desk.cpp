@@ -80,6 +80,20 @@ Answer RunDesk::keep_note(const dashboard::NoteFolder& folder, const dashboard::
   return kept ? Answer{} : Answer{Delivery::refused, kept.error().message};
 }
 
+Answer RunDesk::print(const dashboard::PrintedTray& tray, const std::filesystem::path& build_sheet) {
+  try {
+    const auto specimens = specimens_of_build_sheet(build_sheet, tray.tray);
+    if (tray.printed) {
+      record_printed(run_, specimens, tray.by);
+    } else {
+      forget_printed(run_, specimens, measured_names(reader_.view()->facts));
+    }
+    return {};
+  } catch (const InputError& error) {
+    return {Delivery::refused, error.what()};
+  }
+}
+
 Answer RunDesk::hand_in(const runtime::Message& message) {
   if (!is_playing(feed_.nodes())) return {Delivery::unanswered};
   const Delivered delivered = deliver(now(), "dashboard", message, kPatience_s);

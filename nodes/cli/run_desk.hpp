@@ -30,6 +30,7 @@ class RunDesk : public dashboard::Desk {
   std::optional<std::string> against(const dashboard::Approval& approval) override;
   std::optional<std::string> against(const dashboard::Withdrawal& withdrawal) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) override;
+  dashboard::Answer print(const dashboard::PrintedTray& tray, const std::filesystem::path& build_sheet) override;
   dashboard::Answer keep_note(const dashboard::NoteFolder& folder, const dashboard::Note& note) override;
 
  private:

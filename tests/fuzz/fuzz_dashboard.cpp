@@ -106,6 +106,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(note->photo.empty() ? !note->text.empty() : dashboard::picture_kind(note->photo).has_value());
   if (request.path.ends_with(dashboard::kImportPath)) request.parts = fuzz::parts_from(request.body);
   if (const auto upload = dashboard::upload_from_parts(request.parts)) fuzz::expect_harmless(*upload);
+  if (const auto wish = dashboard::print_job_from_json(request.body))
+    fuzz::expect(!wish->tray_mm || wish->tray_mm->size() == 2);
+  if (const auto tray = dashboard::printed_tray_from_json(request.body)) fuzz::expect(tray->tray >= 1);
+  (void)dashboard::job_name_from_json(request.body);
   (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
     for (const families::SeedFamily& family : *grouping)

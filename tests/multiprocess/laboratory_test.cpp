@@ -245,8 +245,13 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   ASSERT_EQ(printed.status, 0) << printed.err;
   EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"].size(), 16U);
   EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"][0]["label"], "job_2-01") << "job-01 is the run's already";
-  EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 specimens printed"));
-  EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 known already"));
+  EXPECT_THAT(run_nacre({"printed", job, "--run", run, "--tray", "1"}).out, HasSubstr("9 specimens printed, 0 known"));
+  EXPECT_THAT(run_nacre({"printed", "job_2", "--run", run}).out, HasSubstr("7 specimens printed, 9 known already"));
+  EXPECT_THAT(run_nacre({"printed", job, "--run", run, "--tray", "2", "--undo"}).out,
+              HasSubstr("7 specimens no longer"));
+  EXPECT_EQ(run_nacre({"printed", job, "--run", run, "--tray", "3"}).status, 2);
+  EXPECT_THAT(run_nacre({"designs", "--run", run}).out, HasSubstr("7 specimens to be printed yet"));
+  EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("7 specimens printed, 9 known already"));
   EXPECT_EQ(run_nacre({"fabricate", "--orders", "--run", run, "--out", job}).status, 1) << "nothing is left to print";
   EXPECT_THAT(run_nacre({"designs", "--run", run}).out, HasSubstr("ml of resin; all are printed"));
   fabricate_one({"checkerboard:2", "--batch", "job", "--out", (folder / "clash").string()});

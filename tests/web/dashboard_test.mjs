@@ -59,8 +59,8 @@ test("a live game is shown and followed", async () => {
 test("the laboratory's round has its price before anything is approved", async () => {
   const other = await visitWith(`${live.url}#laboratory`, { "/api/run": (run) => ({ ...run, virtual_lab: false }) });
   const price = await other.locator(".price").innerText();
-  // Nine designs in two tests, twice: 18 notched specimens, eight to a tray, and 18 bars, ten to a tray.
-  const words = "36 specimens on 5 trays, 505 slices, about 5\\.6 h of printing, 6\\.0 h of testing, \\d+ ml of resin";
+  // Nine designs in two tests, twice: nine pairs of notched specimens and 18 bars side by side, 945 mm of 250 a tray.
+  const words = "36 specimens on 4 trays, 404 slices, about 4\\.5 h of printing, 6\\.0 h of testing, \\d+ ml of resin";
   assert.match(price, new RegExp(`^Round 1(, as expected)?: ${words}[;.]`));
   await photograph(other, "price");
   await leave(other);

@@ -437,6 +437,36 @@ export interface Notes {
   notes: Note[];
 }
 
+export interface Printer {
+  name: string;
+  words: string;
+  tray_x_mm: number;
+  tray_y_mm: number;
+}
+
+export interface PrintTray {
+  tray: number;
+  batch: string;
+  labels: string[];
+}
+
+export interface PrintJob {
+  job: string;
+  state: string;
+  progress: number;
+  problem: string;
+  has_files: boolean;
+  printer: string;
+  price: string;
+  trays: PrintTray[];
+}
+
+export interface PrintJobs {
+  printers: Printer[];
+  unprinted: number;
+  jobs: PrintJob[];
+}
+
 export interface Effect {
   name: string;
   family: string;

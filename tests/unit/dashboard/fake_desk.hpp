@@ -44,6 +44,10 @@ class FakeDesk : public Desk {
     groupings.push_back(families);
   }
 
+  Answer print(const PrintedTray& tray, const std::filesystem::path&) override {
+    return printed.push_back(tray), answer;
+  }
+
   Answer keep_note(const NoteFolder&, const Note& note) override { return notes.push_back(note), answer; }
 
   std::shared_ptr<const Laboratory> picture = std::make_shared<const Laboratory>();
@@ -60,6 +64,7 @@ class FakeDesk : public Desk {
   std::vector<Withdrawal> withdrawals;
   std::vector<Amendment> amendments;
   std::vector<std::vector<families::SeedFamily>> groupings;
+  std::vector<PrintedTray> printed;
   std::vector<Note> notes;
 };
 

@@ -63,7 +63,7 @@ TEST(DropletPlan, AFullSpecimenHasTheDropletsOfItsSize) {
   EXPECT_EQ(plan.columns(), std::lround(52 / 25.4 * 300));
   EXPECT_EQ(plan.rows(), std::lround(104 / 25.4 * 600));
   EXPECT_EQ(plan.layers(), std::lround(3.2 / 25.4 * 800));
-  EXPECT_TRUE(plan.layers_are_alike());
+  EXPECT_TRUE(plan.is_like_before(1));
   const DropletPlan turned({.design = kPublished, .orientation_deg = 90.0}, {});
   EXPECT_EQ(turned.columns(), std::lround(104 / 25.4 * 300));
   EXPECT_EQ(turned.rows(), std::lround(52 / 25.4 * 600));
@@ -173,7 +173,7 @@ TEST(DropletPlan, PureMaterialsAreOneMaterial) {
 TEST(DropletPlan, AMixtureIsRandomWithItsFractionInEveryLayerAndTheSameForASeed) {
   const SpecimenPlan mixture{.design = pattern::Mixture{0.65}, .seed = 7};
   const DropletPlan plan(mixture, {});
-  EXPECT_FALSE(plan.layers_are_alike());
+  EXPECT_FALSE(plan.is_like_before(1));
   std::int64_t alike = 0, unlike_in_a_row = 0, pairs = 0;
   const Slice lower = plan.slice(10), upper = plan.slice(11);
   for (const Slice* slice : {&lower, &upper}) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "base/files.hpp"
 #include "base/result.hpp"
@@ -53,8 +54,39 @@ TEST(Job, EverySpecimenLiesOnItsTrayApartFromTheOthers) {
 }
 
 TEST(Job, TraysAreFilledBeforeAnotherIsTaken) {
-  // 16 notched specimens, eight to a tray, and 16 bars, ten to a tray.
+  // A column 52 mm wide takes two notched specimens, one 19 mm wide a bar, with 5 mm between them: of 255 mm, 250 are
+  // for columns and gaps. Eight pairs and 16 bars are 8 x 57 + 16 x 24 = 840 mm: four trays at least.
   EXPECT_EQ(plan_job(request_of(4, 4)).trays, 4);
+  // 9 x 57 + 18 x 24 = 945 mm, too.
+  EXPECT_EQ(plan_job(request_of(3, 6)).trays, 4);
+}
+
+TEST(Job, ThePackingDoesNotHangOnTheSeed) {
+  using Tray = std::multiset<std::tuple<double, double, double>>;
+  const auto trays = [](std::uint64_t seed) {
+    JobRequest request = request_of(3, 5);
+    request.seed = seed;
+    std::map<int, Tray> by_number;
+    const Job job = plan_job(request);
+    for (const PlacedSpecimen& each : job.specimens)
+      by_number[each.tray].insert({each.x_mm, each.y_mm, job.models[each.model].size_x_mm});
+    std::multiset<Tray> all;  // a tray's number is that of its first specimen
+    for (const auto& [number, tray] : by_number) all.insert(tray);
+    return all;
+  };
+  EXPECT_EQ(trays(1), trays(2));
+}
+
+TEST(Job, OfFewLayersIsNoneForVoxelPrint) {
+  JobRequest request{.name = "thin",
+                     .wanted = {{.design = pattern::Mixture{0.5}, .thickness_mm = 0.8}},
+                     .printer = printer_of_name("voxel-print-27um").printer};
+  EXPECT_EQ(plan_job(request).trays, 1) << "30 layers of 27 um";
+  request.wanted[0].thickness_mm = 0.78;
+  EXPECT_THROW(plan_job(request), InputError) << "29 layers";
+  request.printer = {};
+  EXPECT_EQ(plan_job(request).trays, 1);
+  EXPECT_THROW(printer_of_name("nonsense"), InputError);
 }
 
 TEST(Job, EveryModelIsPrintedOnceBeforeAnyIsPrintedAgain) {

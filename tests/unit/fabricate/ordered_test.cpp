@@ -65,7 +65,7 @@ std::string export_without_time(const tester::Loading& loading, double modulus_m
 
 TEST_F(OrderedTest, StandsInBothSheets) {
   const Job job = job_of({coupon("r2/interface/tensile/discrimination-1")});
-  const auto sheet = nlohmann::json::parse(build_sheet_json(job, std::vector<WrittenModel>(1)));
+  const auto sheet = nlohmann::json::parse(build_sheet_json(job, {.models = {{}}, .trays = {{}}}));
   EXPECT_EQ(sheet["models"][0]["name"], "interface-tensile");
   EXPECT_EQ(sheet["models"][0]["test"], "tensile");
   EXPECT_EQ(sheet["models"][0]["order_id"], "r2/interface/tensile/discrimination-1");
@@ -73,7 +73,7 @@ TEST_F(OrderedTest, StandsInBothSheets) {
   EXPECT_EQ(sheet["models"][0]["testing"]["loading"], "strain 0.02 0.005 0.022");
   EXPECT_TRUE(sheet["models"][0]["testing"].contains("gauge_without_extensometer_mm")) << "it is a bar";
   for (const auto& specimen : sheet["specimens"]) EXPECT_EQ(specimen["test"], "tensile");
-  const std::string html = build_sheet_html(job, std::vector<WrittenModel>(1));
+  const std::string html = build_sheet_html(job, {.models = {{}}, .trays = {{}}});
   EXPECT_THAT(html, HasSubstr("<td>tensile</td>"));
   EXPECT_THAT(html, HasSubstr("<td>to 2 % strain, back to 0.5 %, on to 2.2 %</td>"));
   EXPECT_EQ(specimen_table(job),

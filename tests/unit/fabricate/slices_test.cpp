@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "base/files.hpp"
@@ -80,6 +81,26 @@ TEST_F(Slices, AreIndexedPicturesWithThePhysicalSizeOfDroplets) {
   ASSERT_NE(physical, std::string::npos);
   EXPECT_EQ(number_at(physical + 4), 11811U);
   EXPECT_EQ(number_at(physical + 8), 23622U);
+}
+
+// What GrabCAD Voxel Print takes: 32 bits, a few opaque colours, names with a prefix, 600 x 300 dpi.
+TEST_F(Slices, InColoursHoldTheSameDroplets) {
+  const Printer printer = printer_of_name("voxel-print-27um").printer;
+  for (const pattern::Design& design : {thin_.design, pattern::Design(pattern::Mixture{0.65})}) {
+    SpecimenPlan specimen = thin_;
+    specimen.design = design;
+    const DropletPlan plan(specimen, printer);
+    write_slices(plan, printer, folder_);
+    EXPECT_FALSE(fs::exists(folder_ / "0000.png"));
+    const std::string png = read_file(folder_ / "slice_0000.png");
+    EXPECT_EQ(png[24], 8) << "bits per channel";
+    EXPECT_EQ(png[25], 6) << "red, green, blue, alpha";
+    for (int layer = 0; layer < plan.layers(); ++layer)
+      EXPECT_EQ(read_slice(folder_ / slice_name(layer, printer.pixels)), plan.slice(layer)) << layer;
+    EXPECT_EQ(count_slices(folder_, printer.pixels).layers, std::lround(thin_.thickness_mm / 0.027));
+  }
+  write_slices(DropletPlan(thin_, {}), {}, folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "slice_0000.png")) << "an earlier stack does not stay";
 }
 
 TEST_F(Slices, DamagedFilesAreNamed) {
