@@ -39,7 +39,7 @@ export async function visit(url, { width = 1360, height = 900, dark = false, tou
     if (!to.startsWith(new URL(url).origin) && !/^(blob|data):/.test(to))
       page.troubles.push(`request to elsewhere: ${to}`);
   });
-  await page.goto(url);
+  await page.goto(url, { timeout: 60_000 }); // Chromium begins slowly on a busy machine
   return page;
 }
 
@@ -59,6 +59,16 @@ export async function visitWith(url, changes, how = {}) {
 export async function savedFrom(page, button) {
   const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+/** Drops files of the testing machine, each a name and a text, on the page. */
+export async function drop(page, files) {
+  const transfer = await page.evaluateHandle((dropped) => {
+    const data = new DataTransfer();
+    for (const { name, text } of dropped) data.items.add(new File([text], name));
+    return data;
+  }, files);
+  await page.locator(".import").dispatchEvent("drop", { dataTransfer: transfer });
 }
 
 /** Closes a page and all of its context; responses that are still on their way to it are no fault. */

@@ -6,7 +6,7 @@ import { request } from "node:http";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { browser, leave, photograph, savedFrom as download, visit, visitWith } from "./browser.mjs";
+import { browser, drop, leave, photograph, savedFrom as download, visit, visitWith } from "./browser.mjs";
 import { laboratoryFiles } from "./exports.mjs";
 import { endAll, openDashboard, playGame, renamed, ROOT, until, withManyPatterns } from "./games.mjs";
 
@@ -172,16 +172,6 @@ test("what was mistyped is amended, what cannot be made is withdrawn, and the ro
   await leave(on);
   await its.close();
 });
-
-/** Drops files, each a name and a text, on the page. */
-async function drop(on, files) {
-  const transfer = await on.evaluateHandle((dropped) => {
-    const data = new DataTransfer();
-    for (const { name, text } of dropped) data.items.add(new File([text], name));
-    return data;
-  }, files);
-  await on.locator(".import").dispatchEvent("drop", { dataTransfer: transfer });
-}
 
 const SERIES = "tests/unit/measurement/data/exports/clean/testxpert_series.csv";
 const understood = (on) => on.getByRole("region", { name: "what is understood of the files" });

@@ -5,21 +5,29 @@ const SPEED_MM_PER_S = 1 / 30;
 const GAUGE_MM = 54;
 const WIDTH_MM = 52;
 
-/** Time, extension and force of a notched specimen: straight to its peak, then down to zero. */
-function pull({ modulus_pa, peak_pa, thickness_mm }) {
+/** Time, extension and force of a specimen: straight to its peak, then down to zero. */
+function pull({
+  modulus_pa, peak_pa, thickness_mm, width_mm = WIDTH_MM, gauge_mm = GAUGE_MM, speed_mm_per_s = SPEED_MM_PER_S,
+}) {
   const peakStrain = peak_pa / modulus_pa;
+  const step_mm = Math.min(speed_mm_per_s * TIME_STEP_S, (peakStrain * gauge_mm) / 20);
   const rows = [];
   for (let i = 0; ; ++i) {
-    const extension = SPEED_MM_PER_S * TIME_STEP_S * i;
-    const strain = extension / GAUGE_MM;
+    const strain = (i * step_mm) / gauge_mm;
     const share = strain <= peakStrain ? strain / peakStrain : 2 - strain / peakStrain;
-    rows.push([TIME_STEP_S * i, extension, Math.max(0, share) * 1e-6 * peak_pa * WIDTH_MM * thickness_mm]);
+    rows.push([(i * step_mm) / speed_mm_per_s, i * step_mm, Math.max(0, share) * 1e-6 * peak_pa * width_mm * thickness_mm]);
     if (share < -0.1) return rows;
   }
 }
 
 const written = (rows, digits, delimiter, mark = ".") =>
   rows.map((row) => row.map((x, i) => x.toFixed(digits[i]).replace(".", mark)).join(delimiter)).join("\n") + "\n";
+
+/** The export of a specimen by the maker of that number: name and text. */
+export function exportOf(specimen, number) {
+  const maker = MAKERS[number % MAKERS.length];
+  return { name: `${specimen.name}.${maker.extension}`, text: maker.write(pull(specimen)) };
+}
 
 const MAKERS = [
   {

@@ -6,6 +6,7 @@ import { MeasurementForm } from "./measurement_form";
 import { gpa, mpa, percent } from "./numbers";
 import { Awaited, DesignChip, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
 import { Orders } from "./orders";
+import { PrintJobs } from "./print_jobs";
 import { offerOf, Proposals } from "./proposals";
 import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
@@ -33,17 +34,19 @@ const stateColumns = (waits: boolean) => [
   },
   {
     ...TERMS.proposedIn,
+    minor: true,
     csv: "proposed_in_round",
     show: (d: DesignState) => d.proposed_in_round ?? "–",
     value: (d: DesignState) => d.proposed_in_round,
   },
-  { ...TERMS.ordered, show: (d: DesignState) => d.ordered, value: (d: DesignState) => d.ordered },
-  { ...TERMS.printed, show: (d: DesignState) => d.printed, value: (d: DesignState) => d.printed },
+  { ...TERMS.ordered, minor: true, show: (d: DesignState) => d.ordered, value: (d: DesignState) => d.ordered },
+  { ...TERMS.printed, minor: true, show: (d: DesignState) => d.printed, value: (d: DesignState) => d.printed },
   { ...TERMS.measured, show: (d: DesignState) => d.measured, value: (d: DesignState) => d.measured },
-  { ...TERMS.valid, show: (d: DesignState) => d.valid, value: (d: DesignState) => d.valid },
+  { ...TERMS.valid, minor: true, show: (d: DesignState) => d.valid, value: (d: DesignState) => d.valid },
   {
     ...TERMS.approval,
     words: true,
+    minor: true,
     show: (d: DesignState) => (d.by ? `${d.by}: ${d.why}` : ""),
     order: (d: DesignState) => d.by,
   },
@@ -104,6 +107,7 @@ const groupColumns = [
   },
   {
     ...TERMS.validOfTested,
+    minor: true,
     csv: "valid",
     show: (g: Group) => `${g.valid.length} of ${g.tested.length}`,
     value: (g: Group) => g.valid.length,
@@ -116,9 +120,10 @@ const groupColumns = [
     show: (g: Group) => inUnit(g, g.mean_pa),
     value: (g: Group) => g.mean_pa,
   },
-  { ...TERMS.scatter, show: (g: Group) => percentOrDash(g.scatter), value: (g: Group) => g.scatter },
+  { ...TERMS.scatter, minor: true, show: (g: Group) => percentOrDash(g.scatter), value: (g: Group) => g.scatter },
   {
     ...TERMS.withoutOutliers,
+    minor: true,
     csv: "mean_without_pa",
     show: (g: Group) =>
       g.proposed_outliers.length > 0
@@ -203,6 +208,7 @@ export function LaboratoryView({
         />
       )}
       {playing && <Orders laboratory={laboratory} by={by} refresh={refresh} />}
+      {playing && !info.virtual_lab && <PrintJobs laboratory={laboratory} by={by} refresh={refresh} />}
       <ImportFiles laboratory={laboratory} refresh={refresh} playing={playing} />
       <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
       {specimens(laboratory)}

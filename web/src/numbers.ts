@@ -56,5 +56,8 @@ export function bytes(count: number): string {
 
 export const words = (name: string) => name.replaceAll("_", " ");
 
+/** "1 specimen", "3 specimens". */
+export const counted = (count: number, noun: string) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
 /** A clause as a sentence: its first letter is a capital. */
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);

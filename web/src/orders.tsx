@@ -28,11 +28,18 @@ const columns: Column<Order>[] = [
     value: (o) => o.design,
   },
   { ...TERMS.test, words: true, show: inWords, value: (o) => o.test },
-  { ...TERMS.arrivedOf, csv: "arrived", show: (o) => `${o.arrived} of ${o.replicates}`, value: (o) => o.arrived },
+  {
+    ...TERMS.arrivedOf,
+    minor: true,
+    csv: "arrived",
+    show: (o) => `${o.arrived} of ${o.replicates}`,
+    value: (o) => o.arrived,
+  },
   { heading: "replicates", value: (o) => o.replicates },
   {
     ...TERMS.orderState,
     words: true,
+    minor: true,
     show: (o) => (
       <>
         <span class={`chip ${o.withdrawn ? "rejected" : "pending"}`}>{o.withdrawn ? "withdrawn" : "open"}</span>{" "}

@@ -6,7 +6,7 @@ import { MATERIAL } from "./colour";
 import { figure, sentence } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
-import { FindRows, Heading, useSorting, type Sortable } from "./sorting";
+import { cellClass, FindRows, Heading, useSorting, type Sortable } from "./sorting";
 
 /** One unit of a design, drawn from its name in the colours of the materials; mixtures in their shade. */
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
@@ -90,7 +90,6 @@ export function Name({ design }: { design: string }) {
 export interface Column<Row> extends Sortable<Row> {
   /** The column's name in the file where it is not the heading. */
   csv?: string;
-  words?: boolean;
 }
 
 /** So many rows are drawn at once: thousands take a browser seconds. */
@@ -174,7 +173,7 @@ export function Table<Row>({
             <thead>
               <tr>
                 {shown.map((c) => (
-                  <Heading key={c.heading} column={c} words={c.words ?? false} {...sorting} />
+                  <Heading key={c.heading} column={c} {...sorting} />
                 ))}
               </tr>
             </thead>
@@ -187,7 +186,7 @@ export function Table<Row>({
                     aria-current={rowKey(row) === chosen ? "true" : undefined}
                   >
                     {shown.map((c) => (
-                      <td key={c.heading} class={c.words ? "words" : ""}>
+                      <td key={c.heading} class={cellClass(c)}>
                         {c.show!(row)}
                       </td>
                     ))}

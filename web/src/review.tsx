@@ -164,12 +164,19 @@ export function Specimens({
           {
             heading: "specimen",
             words: true,
-            show: (s) => <a href={addressOf("laboratory", { specimen: s.specimen })}>{s.specimen}</a>,
+            show: (s) => (
+              <>
+                <a href={addressOf("laboratory", { specimen: s.specimen })}>{s.specimen}</a>
+                <span class="narrow quiet">{`${s.test}${unusual(s)}`}</span>
+                {doubts.has(s.specimen) && <span class="narrow doubt">out of line</span>}
+              </>
+            ),
             value: (s) => s.specimen,
           },
           {
             ...TERMS.design,
             words: true,
+            minor: true,
             show: (s) => (
               <span class="with-unit">
                 <Unit design={s.design} size={22} label={false} />
@@ -181,6 +188,7 @@ export function Specimens({
           {
             ...TERMS.test,
             words: true,
+            minor: true,
             show: (s) => `${s.test}${unusual(s)}`,
             value: (s) => s.test,
           },
@@ -207,6 +215,7 @@ export function Specimens({
             ...TERMS.remarks,
             csv: "note",
             words: true,
+            minor: true,
             show: (s) => (
               <>
                 {doubts.get(s.specimen)?.map((r) => (

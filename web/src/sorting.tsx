@@ -14,7 +14,14 @@ export interface Sortable<Row> {
   value?: (row: Row) => unknown;
   /** What the rows are put in order by, where that is not `value`. */
   order?: (row: Row) => unknown;
+  words?: boolean;
+  /** Not shown where the screen is narrow. */
+  minor?: boolean;
 }
+
+/** The class of a column's cells. */
+export const cellClass = ({ words, minor }: { words?: boolean; minor?: boolean }) =>
+  [words && "words", minor && "minor"].filter(Boolean).join(" ");
 
 /** By which column, by its heading; null: as the rows come. */
 type Order = { heading: string; descending: boolean } | null;
@@ -86,14 +93,14 @@ export function useSorting<Row>(rows: Row[], columns: Sortable<Row>[]): Sorting<
 
 /** A column's heading: a button that puts the rows in order, where the column can. */
 export function Heading<Row>(
-  { column, words, order, turn }: { column: Sortable<Row>; words: boolean } & Pick<Sorting<Row>, "order" | "turn">,
+  { column, order, turn }: { column: Sortable<Row> } & Pick<Sorting<Row>, "order" | "turn">,
 ) {
   const { heading, hint } = column;
   const text = hint ? <span class="term">{heading}</span> : heading;
   const way = order?.heading !== heading ? "none" : order.descending ? "descending" : "ascending";
   const canSort = column.order !== undefined || column.value !== undefined;
   return (
-    <th class={words ? "words" : ""} scope="col" title={hint} aria-sort={canSort ? way : undefined}>
+    <th class={cellClass(column)} scope="col" title={hint} aria-sort={canSort ? way : undefined}>
       {canSort ? (
         <button type="button" class="sort" onClick={() => turn(heading)}>
           {text}
