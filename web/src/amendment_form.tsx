@@ -2,11 +2,10 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { LaboratorySpecimen } from "./api";
-import { inWordsOfForm, measuredName, rowOf, unitOf, unreadable, EMPTY, type Form } from "./measurement_form";
+import { ConditionFields } from "./condition_fields";
+import { inWordsOfForm, rowOf, unreadable, EMPTY, type Form } from "./measurement_form";
 import { GPA, MPA } from "./numbers";
 import type { NoticeText } from "./parts";
-
-type Field = "pattern" | "test" | "value" | "orientation_deg" | "thickness_mm" | "strain_rate_per_s";
 
 /** A number as a person would have typed it. */
 const typed = (value: number | null) => (value === null ? "" : String(Number(value.toPrecision(10))));
@@ -59,7 +58,7 @@ export function AmendmentForm({
   const [why, setWhy] = useState("");
   const first = useRef<HTMLInputElement>(null);
   useEffect(() => first.current?.focus(), []);
-  const set = (field: Field) => (event: { currentTarget: { value: string } }) =>
+  const set = (field: keyof Form) => (event: { currentTarget: { value: string } }) =>
     setForm({ ...form, [field]: event.currentTarget.value });
   const send = async (event: Event) => {
     event.preventDefault();
@@ -76,44 +75,12 @@ export function AmendmentForm({
       <p class="whole">
         Amend {specimen.specimen}: the new values count from the next calibration on; the old ones stay in the run.
       </p>
-      <label>
-        {measuredName(form.test)} / {unitOf(form.test)}{" "}
-        <input
-          ref={first}
-          name="value"
-          inputMode="decimal"
-          value={form.value}
-          onInput={set("value")}
-          placeholder={specimen.points > 0 ? "from the curve" : ""}
-        />
-      </label>
-      <label>
-        Thickness / mm{" "}
-        <input name="thickness" inputMode="decimal" value={form.thickness_mm} onInput={set("thickness_mm")} />
-      </label>
-      <label>
-        Strain rate / s⁻¹{" "}
-        <input name="rate" inputMode="decimal" value={form.strain_rate_per_s} onInput={set("strain_rate_per_s")} />
-      </label>
-      <label>
-        Pattern{" "}
-        <input name="pattern" maxLength={101} spellcheck={false} value={form.pattern} onInput={set("pattern")} />
-      </label>
-      <label>
-        Test
-        <select name="test" value={form.test} onChange={set("test")}>
-          <option>toughness</option>
-          <option>modulus</option>
-          <option>tensile</option>
-        </select>
-      </label>
-      <label>
-        Orientation{" "}
-        <select name="orientation" value={form.orientation_deg} onChange={set("orientation_deg")}>
-          <option value="0">upright</option>
-          <option value="90">turned by 90°</option>
-        </select>
-      </label>
+      <ConditionFields
+        form={form}
+        set={set}
+        first={first}
+        hints={{ value: specimen.points > 0 ? "from the curve" : "" }}
+      />
       <label class="whole">
         Why{" "}
         <input

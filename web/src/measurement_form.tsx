@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import type { Laboratory, Order } from "./api";
+import { ConditionFields } from "./condition_fields";
 import { typedNumber } from "./numbers";
 import { useDraft } from "./kept_draft";
 import { Notice } from "./parts";
@@ -84,6 +85,9 @@ function nextName(order: Order, taken: Set<string>): string {
   while (taken.has(`${stem}-${number}`)) ++number;
   return `${stem}-${number}`;
 }
+
+/** Fields with another value than the order's: the form no longer belongs to it. */
+const ASKED = ["pattern", "test", "orientation_deg"];
 
 /** Rows of a curve file below its heading. */
 const rowsIn = (csv: string) => csv.split("\n").filter((line) => line.trim() !== "").length - 1;
@@ -219,68 +223,19 @@ export function MeasurementForm({
               placeholder="a name of its own"
             />
           </label>
-          <label>
-            Pattern{" "}
-            <input
-              required
-              name="pattern"
-              maxLength={101}
-              spellcheck={false}
-              value={form.pattern}
-              onInput={setAsked("pattern")}
-              placeholder="key, rigid, soft, mix:0.65"
-            />
-          </label>
-          <label>
-            Test
-            <select name="test" value={form.test} onChange={setAsked("test")}>
-              <option>toughness</option>
-              <option>modulus</option>
-              <option>tensile</option>
-            </select>
-          </label>
-          <label>
-            {measuredName(form.test)} / {unitOf(form.test)}{" "}
-            <input
-              name="value"
-              inputMode="decimal"
-              value={form.value}
-              onInput={set("value")}
-              placeholder="or from the curve"
-              aria-invalid={entered.isFaulty("value")}
-            />
-          </label>
+          <ConditionFields
+            form={form}
+            set={(field) => (ASKED.includes(field) ? setAsked : set)(field)}
+            isFaulty={entered.isFaulty}
+            hints={{
+              value: "or from the curve",
+              pattern: "key, rigid, soft, mix:0.65",
+              thickness_mm: "3.2",
+              strain_rate_per_s: "6.17e-4",
+            }}
+          />
           <label>
             Batch <input value={form.batch} maxLength={60} onInput={set("batch")} />
-          </label>
-          <label>
-            Orientation{" "}
-            <select name="orientation" value={form.orientation_deg} onChange={setAsked("orientation_deg")}>
-              <option value="0">upright</option>
-              <option value="90">turned by 90°</option>
-            </select>
-          </label>
-          <label>
-            Thickness / mm{" "}
-            <input
-              name="thickness"
-              inputMode="decimal"
-              value={form.thickness_mm}
-              onInput={set("thickness_mm")}
-              placeholder="3.2"
-              aria-invalid={entered.isFaulty("thickness_mm")}
-            />
-          </label>
-          <label>
-            Strain rate / s⁻¹{" "}
-            <input
-              name="rate"
-              inputMode="decimal"
-              value={form.strain_rate_per_s}
-              onInput={set("strain_rate_per_s")}
-              placeholder="6.17e-4"
-              aria-invalid={entered.isFaulty("strain_rate_per_s")}
-            />
           </label>
           <label class="whole">
             Curve{" "}
