@@ -85,26 +85,26 @@ ImportedSpecimen common_of(const SheetRow& row, const TesterRecord& from) {
   return common;
 }
 
-/// Doubts about a whole sweep, each once.
-void collect_sweep_doubts(const SheetRow& row, const Sweep& sweep, std::size_t left_out,
-                          std::vector<std::string>& warnings) {
-  const std::string who = fmt::format("specimen {}: ", row.record.specimen);
+/// Doubts about a whole sweep.
+std::vector<ImportDoubt> doubts_of_sweep(const SheetRow& row, const Sweep& sweep, std::size_t left_out) {
+  std::vector<ImportDoubt> doubts;
   if (left_out > 0)
-    warnings.push_back(
-        fmt::format("{}{} left out, without an amplitude or with a strain rate not within {} to "
-                    "{} 1/s: are the units of frequency and amplitude right?",
-                    who, counted(static_cast<int>(left_out), "row"), kStrainRatePerS.least, kStrainRatePerS.most));
+    doubts.push_back(
+        {true, fmt::format("{} left out, without an amplitude or with a strain rate not within {} to {} 1/s: are the "
+                           "units of frequency and amplitude right?",
+                           counted(static_cast<int>(left_out), "row"), kStrainRatePerS.least, kStrainRatePerS.most)});
   if (row.rate_is_given)
-    warnings.push_back(who + "strain_rate_per_s of the sheet is not used: a sweep has a rate for each frequency");
+    doubts.push_back({false, "strain_rate_per_s of the sheet is not used: a sweep has a rate for each frequency"});
   if (row.strain_amplitude && sweep.column(SweepQuantity::amplitude))
-    warnings.push_back(fmt::format("{}strain_amplitude of the sheet is not used: the file has `{}`", who,
-                                   sweep.column(SweepQuantity::amplitude)->heading));
+    doubts.push_back({false, fmt::format("strain_amplitude of the sheet is not used: the file has `{}`",
+                                         sweep.column(SweepQuantity::amplitude)->heading)});
   const auto [least, most] =
       std::minmax_element(sweep.points.begin(), sweep.points.end(),
                           [](const auto& a, const auto& b) { return a.storage_modulus_pa < b.storage_modulus_pa; });
   if (!kUsualModulusPa.hold(least->storage_modulus_pa) || !kUsualModulusPa.hold(most->storage_modulus_pa))
-    warnings.push_back(fmt::format("{}storage moduli from {:.3g} to {:.3g} Pa are unusual: is the unit right?", who,
-                                   least->storage_modulus_pa, most->storage_modulus_pa));
+    doubts.push_back({true, fmt::format("storage moduli from {:.3g} to {:.3g} Pa are unusual: is the unit right?",
+                                        least->storage_modulus_pa, most->storage_modulus_pa)});
+  return doubts;
 }
 
 }  // namespace
@@ -126,7 +126,10 @@ tl::expected<std::vector<ImportedSpecimen>, ImportFault> import_sweep(const Shee
                     fmt::format("no row has a strain rate within {} to {} 1/s, the angular frequency times the "
                                 "amplitude: expected other units of frequency or amplitude",
                                 kStrainRatePerS.least, kStrainRatePerS.most)});
-  collect_sweep_doubts(row, *from.sweep, from.sweep->points.size() - specimens.size(), warnings);
+  const auto doubts = doubts_of_sweep(row, *from.sweep, from.sweep->points.size() - specimens.size());
+  for (const ImportDoubt& doubt : doubts)
+    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt.text));
+  for (ImportedSpecimen& one : specimens) one.doubts = doubts;  // none counts before they are settled
   const std::size_t width = fmt::format("{}", specimens.size()).size();
   for (std::size_t i = 0; i < specimens.size(); ++i)
     specimens[i].record.specimen += fmt::format("-{:0{}}", i + 1, width);

@@ -282,6 +282,19 @@ TEST_F(Sweeps, RowsWithoutPositiveNumbersAreLeftOutAndThatIsSaid) {
   expect_refused(this->import("Frequency (Hz),E' (MPa),Strain (%)\n0,0,0.1\n"), "", 1, "above 0");
 }
 
+TEST_F(Sweeps, AWrongUnitIsAskedAboutBeforeAnyOfItsModuliCounts) {
+  const Import import = import_with_amplitude(sweep_table("Frequency (Hz),Storage modulus (GPa)\n", "{0},{2}\n"));
+  ASSERT_EQ(import.specimens.size(), kUsualSweep.size());
+  for (const auto& one : import.specimens) {
+    ASSERT_EQ(one.doubts.size(), 1U) << one.record.specimen;
+    EXPECT_TRUE(one.doubts[0].is_of_scale);
+    EXPECT_THAT(one.doubts[0].text, HasSubstr("Pa are unusual: is the unit right?"));
+  }
+  EXPECT_TRUE(import_with_amplitude(sweep_table("Frequency (Hz),Storage modulus (MPa)\n", "{0},{3}\n"))
+                  .specimens[0]
+                  .doubts.empty());
+}
+
 TEST_F(Sweeps, RowsTornAtDecimalCommasAreNamed) {
   expect_refused(this->import("Frequency (Hz),E' (MPa),Strain (%)\n0,1,1000,5,0,1\n1,0,1200,5,0,1\n"), "", 2,
                  "6 cells");
