@@ -38,6 +38,7 @@ std::string last_error(const fs::path& file) {
 ReadUpload::ReadUpload(const Upload& upload, const ImportReader& reader) {
   write_files(upload);
   std::vector<std::string> command = reader.command;
+  if (upload.keeps_toe) command.push_back("--toe=keep");
   for (const std::string& argument :
        {std::string("--json"), std::string("--confined"), "--out=" + (folder_.path() / kSet).string(),
         "--specimens=" + upload.sheet.name, std::string("--")})

@@ -36,7 +36,7 @@ Json answer_json(const std::string& specimen, std::string_view answer, const std
 }
 
 std::string content_of(const Upload& upload) {
-  std::string content = upload.sheet.name + '\n' + content_hash(upload.sheet.bytes);
+  std::string content = upload.sheet.name + '\n' + content_hash(upload.sheet.bytes) + (upload.keeps_toe ? "\ntoe" : "");
   for (const UploadedFile& file : upload.exports) content += '\n' + file.name + '\n' + content_hash(file.bytes);
   return content_hash(content);
 }

@@ -46,12 +46,15 @@ Result<void> take_choice(std::string_view text, Upload& upload) {
   constexpr int kDeepest = 2;
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; };
   const Json object = Json::parse(text, shallow, false);
-  if (!object.is_object()) return fail("choice: expected a JSON object with enter and confirmed");
+  if (!object.is_object()) return fail("choice: expected a JSON object with enter, confirmed, toe");
   auto enter = names_of(object, "enter"), confirmed = names_of(object, "confirmed");
   for (const auto* each : {&enter, &confirmed})
     if (!*each) return tl::unexpected(each->error());
   upload.enter = std::move(*enter);
   upload.confirmed = std::move(*confirmed);
+  const Json toe = object.value("toe", Json("compensate"));
+  if (toe != "keep" && toe != "compensate") return fail("choice: toe: expected keep or compensate");
+  upload.keeps_toe = toe == "keep";
   return {};
 }
 

@@ -26,10 +26,12 @@ struct Upload {
   std::vector<UploadedFile> exports;
   std::set<std::string> enter;      ///< specimens to be entered; none: the files are only read
   std::set<std::string> confirmed;  ///< specimens whose doubts of scale a person has looked at
+  bool keeps_toe = false;           ///< the flat beginning of curves stays: `nacre import --toe keep`
 };
 
-/// The parts `sheet` (a file), `export` (a file each) and, where something is entered, `choice`: JSON with the lists
-/// `enter` and `confirmed`. Errors name the part or the file and what was expected: names are plain ones, each once.
+/// The parts `sheet` (a file), `export` (a file each) and, where something is chosen, `choice`: JSON with the lists
+/// `enter` and `confirmed` and `toe` (`keep`, `compensate`). Errors name the part or the file and what was expected:
+/// names are plain ones, each once.
 Result<Upload> upload_from_parts(std::vector<Part> parts);
 
 }  // namespace nacre::dashboard

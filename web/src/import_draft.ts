@@ -17,9 +17,13 @@ export interface Draft {
   /** Questions that are answered: specimen and question. */
   settled: string[];
   leftOut: string[];
+  /** The flat beginning of curves is kept (`nacre import --toe keep`). */
+  keepsToe: boolean;
 }
 
-const EMPTY: Draft = { exports: [], sheet: null, isBuilt: false, guessed: [], settled: [], leftOut: [] };
+const EMPTY: Draft = {
+  exports: [], sheet: null, isBuilt: false, guessed: [], settled: [], leftOut: [], keepsToe: false,
+};
 
 /** Something that a person decides before specimens count, asked once for all whom it concerns. */
 export interface Question {
@@ -104,12 +108,17 @@ export const testsIn = ({ text, column }: Question) =>
 
 const isTaken = (answer: string) => answer === "accepted" || answer === "repeated";
 
+interface Entered {
+  enter: string[];
+  confirmed: string[];
+}
+
 /** The files as a form: with what is to be entered, where anything is. */
-function formOf(draft: Draft, choice: { enter: string[]; confirmed: string[] } | null): FormData {
+function formOf(draft: Draft, entered: Entered | null): FormData {
   const form = new FormData();
   form.append("sheet", new Blob([textOf(draft.sheet!)]), draft.sheet!.name);
   for (const file of draft.exports) form.append("export", file, file.name);
-  if (choice) form.append("choice", JSON.stringify(choice));
+  form.append("choice", JSON.stringify({ ...entered, toe: draft.keepsToe ? "keep" : "compensate" }));
   return form;
 }
 
@@ -141,7 +150,7 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
   const timer = useRef(0);
 
   /** Sends the files; the newest request alone counts. */
-  const send = async (now: Draft, choice: { enter: string[]; confirmed: string[] } | null) => {
+  const send = async (now: Draft, choice: Entered | null) => {
     asked.current?.abort();
     const own = (asked.current = new AbortController());
     setBusy(true);
@@ -223,6 +232,11 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
     change({ ...draft, settled: [...draft.settled, ...specimens.map((name) => answered(name, key))] });
   const leaveOut = (specimen: string, out: boolean) =>
     change({ ...draft, leftOut: out ? [...draft.leftOut, specimen] : draft.leftOut.filter((s) => s !== specimen) });
+  const keepToe = (keepsToe: boolean) => {
+    const next = { ...draft, keepsToe };
+    change(next);
+    readAgain(next);
+  };
   const forget = () => {
     asked.current?.abort();
     clearTimeout(timer.current);
@@ -248,5 +262,5 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
     const why = failed.length > 0 ? ` ${failed.length} not: ${failed[0].error || failed[0].answer}` : "";
     setNotice({ kind: failed.length > 0 ? "bad" : "good", text: done + why });
   };
-  return { draft, understood, notice, busy, take, edit, split, settle, leaveOut, forget, handIn };
+  return { draft, understood, notice, busy, take, edit, split, settle, leaveOut, keepToe, forget, handIn };
 }

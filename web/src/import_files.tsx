@@ -96,7 +96,7 @@ export function ImportFiles({
   refresh: () => Promise<void>;
   playing: boolean;
 }) {
-  const { draft, understood, notice, busy, take, edit, split, settle, leaveOut, forget, handIn } = useImport(
+  const { draft, understood, notice, busy, take, edit, split, settle, leaveOut, keepToe, forget, handIn } = useImport(
     laboratory,
     refresh,
   );
@@ -145,6 +145,12 @@ export function ImportFiles({
             ? "Without a sheet the page makes one from the open orders."
             : `${draft.exports.length} exports, ${draft.sheet?.name ?? "no sheet yet"}; kept in this browser`}
         </span>
+        {!isEmpty && (
+          <label class="check" title="Else a curve begins where its straight part meets zero force (ASTM D638 A1).">
+            <input type="checkbox" checked={draft.keepsToe} onChange={(e) => keepToe(e.currentTarget.checked)} /> keep
+            the flat beginning of curves
+          </label>
+        )}
         {!isEmpty && (
           <button
             type="button"

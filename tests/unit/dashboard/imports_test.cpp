@@ -37,6 +37,8 @@ TEST(Upload, IsASheetAndExportsAndWhatIsChosen) {
   EXPECT_EQ(upload->exports[0].bytes, "1,2\n");
   EXPECT_THAT(upload->enter, ElementsAre("a", "b"));
   EXPECT_THAT(upload->confirmed, ElementsAre("b"));
+  EXPECT_FALSE(upload->keeps_toe);
+  EXPECT_TRUE(upload_from_parts(with(two_files(), {"choice", "", R"({"toe":"keep"})"}))->keeps_toe);
 }
 
 TEST(Upload, NamesLeadNowhere) {
@@ -64,7 +66,7 @@ TEST(Upload, IsLimited) {
 
 TEST(Upload, AChoiceIsTwoListsOfNames) {
   for (const char* choice :
-       {"", "[]", R"({"enter":"a"})", R"({"enter":[1]})", R"({"confirmed":[["a"]]})", "{\"enter\":["})
+       {"", "[]", R"({"enter":"a"})", R"({"enter":[1]})", R"({"confirmed":[["a"]]})", R"({"toe":1})", "{\"enter\":["})
     EXPECT_THAT(fault(with(two_files(), {"choice", "", choice})), HasSubstr("choice: ")) << choice;
 }
 
