@@ -79,12 +79,13 @@ const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
 
 const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
   static const std::map<std::string, Route> routes = {
-      {"/api/measurement", &Dashboard::enter},   {std::string(kImportPath), &Dashboard::import_files},
-      {"/api/review", &Dashboard::review},       {"/api/approval", &Dashboard::decide},
-      {"/api/amendment", &Dashboard::amend},     {"/api/withdrawal", &Dashboard::withdraw},
-      {"/api/simulate", &Dashboard::simulate},   {"/api/grouping", &Dashboard::group},
-      {"/api/note", &Dashboard::note},           {"/api/job", &Dashboard::make_job},
-      {"/api/discard", &Dashboard::discard_job}, {"/api/printed", &Dashboard::print}};
+      {"/api/measurement", &Dashboard::enter}, {std::string(kImportPath), &Dashboard::import_files},
+      {"/api/review", &Dashboard::review},     {"/api/approval", &Dashboard::decide},
+      {"/api/amendment", &Dashboard::amend},   {"/api/withdrawal", &Dashboard::withdraw},
+      {"/api/simulate", &Dashboard::simulate}, {"/api/grouping", &Dashboard::group},
+      {"/api/note", &Dashboard::note},         {"/api/note_removal", &Dashboard::remove_note},
+      {"/api/job", &Dashboard::make_job},      {"/api/discard", &Dashboard::discard_job},
+      {"/api/printed", &Dashboard::print}};
   return routes;
 }
 

@@ -78,6 +78,7 @@ class Dashboard {
   Response simulate(const Request&);
   Response group(const Request&);
   Response note(const Request&);
+  Response remove_note(const Request&);
   Response make_job(const Request&);
   Response discard_job(const Request&);
   Response print(const Request&);

@@ -265,6 +265,12 @@ Result<Note> note_from_json(std::string_view text) {
   return Note{*about, *name, *by, *words, std::move(*photo)};
 }
 
+Result<std::string> note_id_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  return text_of(*object, "id", true);
+}
+
 Result<PrintJobWish> print_job_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());

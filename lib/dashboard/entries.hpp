@@ -37,6 +37,9 @@ Result<std::string> job_name_from_json(std::string_view text);
 /// `about`, `name`, `by`, `text` (lines end with LF), `photo` (base64, may be absent); a text or a photo at least.
 Result<Note> note_from_json(std::string_view text);
 
+/// `id` of a note.
+Result<std::string> note_id_from_json(std::string_view text);
+
 /// Whether a text names a model: the number of a round or the name of a family.
 bool is_model_name(std::string_view name);
 

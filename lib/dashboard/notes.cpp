@@ -49,7 +49,8 @@ std::optional<NoteRow> read_note(const std::filesystem::path& file) {
     const Json object = Json::parse(read_file_up_to(file, kMostNoteFileBytes), nullptr, false);
     if (!object.is_object()) return std::nullopt;
     const auto text = [&](const char* name) { return text_in(object, name); };
-    return NoteRow{text("about"), text("name"), text("by"), text("when"), text("text"), text("photo")};
+    return NoteRow{file.stem().string(), text("about"), text("name"), text("by"),
+                   text("when"),         text("text"),  text("photo")};
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -92,6 +93,20 @@ Result<std::string> NoteFolder::photo(const std::string& file) const {
   } catch (const InputError& error) {
     return fail("{}", error.what());
   }
+}
+
+Result<void> NoteFolder::remove(const std::string& id) const {
+  const std::filesystem::path file = folder_ / (id + std::string(kNoteEnding));
+  if (!is_file_name(file.filename().string(), kNoteEnding) || id.find('/') != std::string::npos || !is_regular(file))
+    return fail("there is no note `{}`", id.substr(0, kLongestStem));
+  std::error_code failure;
+  for (const PictureKind& kind : kKinds) {
+    const std::filesystem::path photo = folder_ / (id + std::string(kind.ending));
+    if (is_regular(photo)) std::filesystem::remove(photo, failure);
+  }
+  if (!failure) std::filesystem::remove(file, failure);
+  if (failure) return fail("{}: cannot be removed: {}", file.string(), failure.message());
+  return {};
 }
 
 Result<void> NoteFolder::keep(const Note& note, std::int64_t utime) const {

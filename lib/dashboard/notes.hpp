@@ -34,10 +34,12 @@ Result<PictureKind> picture_kind(std::string_view bytes);
 
 struct NoteRow {
   static constexpr std::string_view kPageName = "Note";
+  std::string id;  ///< by which it is removed
   std::string about, name, by, when, text;
   std::string photo;  ///< name of its file; empty: none
 
   static void fields(auto& field, auto& m) {
+    field("id", m.id);
     field("about", m.about);
     field("name", m.name);
     field("by", m.by);
@@ -62,6 +64,8 @@ class NoteFolder {
   NotesRow all() const;
   /// Bytes of a photo, by the name of its file. The error says that there is none.
   Result<std::string> photo(const std::string& file) const;
+  /// Removes a note and its photo. The error says that there is none, or why it stays.
+  Result<void> remove(const std::string& id) const;
   /// Writes the note, dated `utime`, in microseconds since 1970. The error says why the folder takes no more. Throws
   /// InputError where the disk does not.
   Result<void> keep(const Note& note, std::int64_t utime) const;

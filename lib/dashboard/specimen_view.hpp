@@ -15,6 +15,9 @@ struct ToldMeasurementRow {
 
   static void fields(auto& field, auto& m) {
     const measurement::SpecimenRecord& r = m.told.record;
+    field("revision", m.told.revision);
+    field("by", m.told.by);
+    field("why", m.told.why);
     field("order", m.told.order_id);
     field("round", m.told.round);
     field("design", r.design);

@@ -29,4 +29,11 @@ Response Dashboard::note(const Request& request) {
   return delivery_response(desk_.keep_note(note_folder_, note));
 }
 
+Response Dashboard::remove_note(const Request& request) {
+  const std::string id = or_refuse(note_id_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  if (const auto removed = note_folder_.remove(id); !removed) throw Refusal{404, removed.error().message};
+  return delivery_response({});
+}
+
 }  // namespace nacre::dashboard

@@ -278,6 +278,13 @@ test("a specimen is looked at before it is judged, and its story is on one page 
   assert.match(await on.locator(".notes li").innerText(), /cracked\s+in the grip\s+web test, 20\d\d-/);
   const files = readdirSync(join(game.folder, "notes")).map((file) => file.replace(/^\d{8}T\d{6}Z-|-[0-9a-f]{8}\./g, "|"));
   assert.deepEqual(files.sort(), ["|specimen-story-1|jpg", "|specimen-story-1|json"]);
+  assert.match(await measured.locator("tbody tr").innerText(), /^as first entered/);
+  await on.getByLabel("note on specimen story-1").fill("not of this one");
+  await on.getByRole("button", { name: "Keep the note" }).click();
+  const second = on.locator(".notes li", { hasText: "not of this one" });
+  await second.getByRole("button", { name: "remove …" }).click();
+  await second.getByRole("button", { name: "remove it for good" }).click();
+  await until(async () => (await on.locator(".notes li").count()) === 1, 20, "the second note is removed");
   await on.locator('.notes input[type="file"]').setInputFiles({ name: "x.png", mimeType: "image/png", buffer: Buffer.from("<svg/>") });
   await on.locator(".notice.bad", { hasText: "x.png is no picture" }).waitFor();
   await photograph(on, "specimen-story", true);

@@ -25,7 +25,8 @@ async function photoIn(file: File): Promise<string> {
   return btoa(letters);
 }
 
-function NoteItem({ note }: { note: Note }) {
+function NoteItem({ note, remove }: { note: Note; remove: () => void }) {
+  const [isSure, setSure] = useState(false);
   const photo = note.photo && ofRun(address("/api/photo", { file: note.photo }));
   return (
     <li>
@@ -36,7 +37,15 @@ function NoteItem({ note }: { note: Note }) {
       )}
       <p class="text">{note.text}</p>
       <p class="quiet">
-        {note.by}, {note.when.replace("T", " ").replace("Z", " UTC")}
+        {note.by}, {note.when.replace("T", " ").replace("Z", " UTC")}{" "}
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => (isSure ? remove() : setSure(true))}
+          onBlur={() => setSure(false)}
+        >
+          {isSure ? "remove it for good" : "remove …"}
+        </button>
       </p>
     </li>
   );
@@ -111,6 +120,7 @@ function NoteForm({ about, name, refresh }: Subject & { refresh: () => Promise<v
 export function Notes({ about, name }: Subject) {
   const { value, problem, read } = useReading<NotesRead>("/api/notes", {}, `${about} ${name}`);
   const [opened, setOpened] = useState<boolean | null>(null); // null: by nobody yet
+  const [notice, , submit] = useSubmit(read, "removing …");
   const notes = (value?.notes ?? []).filter((note) => note.about === about && note.name === name);
   const isOpen = opened ?? notes.length > 0;
   return (
@@ -121,9 +131,14 @@ export function Notes({ about, name }: Subject) {
           <Problem text={problem} />
           <ul>
             {notes.map((note) => (
-              <NoteItem key={`${note.when}${note.photo}${note.text}`} note={note} />
+              <NoteItem
+                key={note.id}
+                note={note}
+                remove={() => void submit("/api/note_removal", { id: note.id }, "The note is removed.")}
+              />
             ))}
           </ul>
+          <Notice notice={notice} />
           <NoteForm key={`${about} ${name}`} about={about} name={name} refresh={read} />
         </>
       )}

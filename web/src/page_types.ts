@@ -392,6 +392,9 @@ export interface NextRound {
 }
 
 export interface ToldMeasurement {
+  revision: number;
+  by: string;
+  why: string;
   order: string;
   round: number;
   design: string;
@@ -425,6 +428,7 @@ export interface SpecimenStory {
 }
 
 export interface Note {
+  id: string;
   about: string;
   name: string;
   by: string;

@@ -48,6 +48,12 @@ function groupFacts(group: Group | undefined, specimen: LaboratorySpecimen): Fac
 
 const MEASURED: Column<ToldMeasurement>[] = [
   {
+    heading: "revision",
+    words: true,
+    show: (m) => (m.revision === 0 ? "as first entered" : `${m.revision}, by ${m.by}: ${m.why}`),
+    value: (m) => m.revision,
+  },
+  {
     heading: "value entered",
     show: (m) => {
       const given = m.test === "modulus" ? m.modulus_pa : m.toughness_pa;
@@ -63,12 +69,23 @@ const MEASURED: Column<ToldMeasurement>[] = [
     },
     value: (m) => (m.test === "modulus" ? m.modulus_of_curve_pa : m.toughness_of_curve_pa),
   },
-  { heading: "points of the curve", show: (m) => m.points, value: (m) => m.points },
-  { heading: "strain rate / s⁻¹", show: (m) => figure(m.strain_rate_per_s), value: (m) => m.strain_rate_per_s },
-  { heading: "thickness / mm", show: (m) => figure(m.thickness_mm), value: (m) => m.thickness_mm },
-  { heading: "batch", words: true, show: (m) => m.batch || "–", value: (m) => m.batch },
-  { heading: "printed as no.", show: (m) => m.print_order || "–", value: (m) => m.print_order },
-  { heading: "entered as", words: true, show: (m) => (m.valid ? "valid" : "not valid"), value: (m) => m.valid },
+  { heading: "points of the curve", minor: true, show: (m) => m.points, value: (m) => m.points },
+  {
+    heading: "strain rate / s⁻¹",
+    minor: true,
+    show: (m) => figure(m.strain_rate_per_s),
+    value: (m) => m.strain_rate_per_s,
+  },
+  { heading: "thickness / mm", minor: true, show: (m) => figure(m.thickness_mm), value: (m) => m.thickness_mm },
+  { heading: "batch", minor: true, words: true, show: (m) => m.batch || "–", value: (m) => m.batch },
+  { heading: "printed as no.", minor: true, show: (m) => m.print_order || "–", value: (m) => m.print_order },
+  {
+    heading: "entered as",
+    words: true,
+    minor: true,
+    show: (m) => (m.valid ? "valid" : "not valid"),
+    value: (m) => m.valid,
+  },
   { heading: "note, file and reduction", words: true, show: (m) => m.note || "none", value: (m) => m.note },
 ];
 

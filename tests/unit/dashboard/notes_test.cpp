@@ -102,6 +102,25 @@ TEST_F(NotesOfARun, StayInPlainFilesAndAreServedAsWhatTheyAre) {
   EXPECT_THAT(photo.headers, testing::Contains(testing::Pair("Content-Security-Policy", HasSubstr("sandbox"))));
 }
 
+TEST_F(NotesOfARun, ANoteIsRemovedWithItsPhotoAndNothingElse) {
+  ASSERT_TRUE(folder_.keep({"specimen", "a", "Ada", "first", kJpeg}, 1'000'000));
+  ASSERT_TRUE(folder_.keep({"specimen", "a", "Ada", "second", kJpeg}, 2'000'000));
+  std::ofstream(run_ / "secret.json") << "{}";
+  const auto remove = [&](const std::string& id) {
+    const std::string body = Json{{"id", id}}.dump();
+    return dashboard_.handle({.method = "POST", .path = "/api/note_removal", .query = {}, .headers = {}, .body = body});
+  };
+  for (const char* id : {"../secret", "absent", "..", "a/b"}) EXPECT_EQ(remove(id).status, 404) << id;
+  EXPECT_TRUE(std::filesystem::exists(run_ / "secret.json"));
+  const NotesRow before = folder_.all();
+  EXPECT_EQ(remove(before.notes[0].id).status, 200);
+  const NotesRow after = folder_.all();
+  ASSERT_EQ(after.notes.size(), 1u);
+  EXPECT_EQ(after.notes[0].text, "second");
+  EXPECT_FALSE(std::filesystem::exists(run_ / "notes" / before.notes[0].photo));
+  EXPECT_TRUE(std::filesystem::exists(run_ / "notes" / after.notes[0].photo));
+}
+
 TEST_F(NotesOfARun, NoOtherFileIsServedAsAPhoto) {
   std::filesystem::create_directories(run_ / "notes");
   std::ofstream(run_ / "secret.jpg") << kJpeg;
