@@ -179,7 +179,7 @@ TEST_F(CommandLine, BadParameterFilesAreRefusedWithLineAndKey) {
 
 TEST_F(CommandLine, WrongUsageIsRefused) {
   expect_refused(run_nacre({"simulate"}), {"PATTERN"});
-  expect_refused(run_nacre({"simulate", "soft", "--fidelity", "fine"}), {"fine"});
+  expect_refused(run_nacre({"simulate", "soft", "--fidelity", "coarse"}), {"coarse"});
   expect_refused(run_nacre({"simulate", "soft", "--test", "hardness"}), {"hardness"});
   expect_refused(run_nacre({"explore", "--algorithm", "magic", "--out", path("g.csv")}), {"magic"});
   expect_refused(run_nacre({"nonsense"}), {"nonsense: no such command", "simulate"});
