@@ -21,6 +21,9 @@ export interface Draft {
   keepsToe: boolean;
 }
 
+/** What of a draft is no file. */
+type Typed = Omit<Draft, "exports">;
+
 const EMPTY: Draft = {
   exports: [], sheet: null, isBuilt: false, guessed: [], settled: [], leftOut: [], keepsToe: false,
 };
@@ -175,18 +178,22 @@ export function useImport(laboratory: Laboratory, refresh: () => Promise<void>) 
   const change = (next: Draft) => {
     setDraft(next);
     const isEmpty = next.exports.length === 0 && !next.sheet;
-    keepTyping("import", isEmpty ? undefined : { ...next, exports: undefined });
-    keepDraft("import", isEmpty ? undefined : next).catch(() =>
+    const { exports, ...typed } = next;
+    keepTyping("import", isEmpty ? undefined : typed);
+    const kept = [keepDraft("import", isEmpty ? undefined : typed)];
+    // Files are written once: a reload while they are written again would cost them.
+    if (exports !== draft.exports) kept.push(keepDraft("import/files", isEmpty ? undefined : exports));
+    Promise.all(kept).catch(() =>
       setNotice({ kind: "bad", text: "This browser keeps no drafts: a reload would lose these files." }),
     );
   };
   useEffect(() => {
-    void keptDraft<Draft>("import")
-      .catch(() => undefined)
-      .then((kept) => {
-        const typed = keptTyping<Omit<Draft, "exports">>("import");
-        if (!kept && !typed) return;
-        const now = { ...EMPTY, ...kept, ...typed, exports: kept?.exports ?? [] };
+    void Promise.all([keptDraft<Typed>("import"), keptDraft<File[]>("import/files")])
+      .catch(() => [undefined, undefined] as const)
+      .then(([kept, exports]) => {
+        const typed = keptTyping<Typed>("import") ?? kept;
+        if (!typed) return;
+        const now = { ...EMPTY, ...typed, exports: exports ?? [] };
         setDraft(now);
         readAgain(now);
       });

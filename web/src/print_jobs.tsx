@@ -103,7 +103,7 @@ export function PrintJobs({
     const printer = jobs.printers.find((p) => p.name === wish.printer)!;
     const tray_mm = [Number(wish.x) || printer.tray_x_mm, Number(wish.y) || printer.tray_y_mm];
     const body = { printer: wish.printer, tray_stacks: wish.trays, tray_mm };
-    void submit("/api/job", body, "The print job is being made.");
+    void submit("/api/job", body, "Its trays stand here once it is made.");
   };
   const mark = (job: PrintJob, tray: PrintTray, isPrinted: boolean) =>
     submit(
