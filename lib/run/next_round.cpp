@@ -86,7 +86,8 @@ std::string brought_in_words(const NextRound& next) {
 
 NextRound next_round(const RunRecord& run) {
   const int closed = newest_closed_round(run).value_or(-1);
-  NextRound next{.round = std::max(1, closed + 1)};
+  NextRound next;
+  next.round = std::max(1, closed + 1);
   const Patterns measured = by_name(run, closed);
   if (closed < 1 || measured.empty()) {
     next.unknown = "it cannot be told yet what a round brings: no pattern is measured";

@@ -12,6 +12,8 @@
 
 namespace nacre::cli {
 
+inline constexpr int kBadInput = 2;  ///< exit status: what was typed or read cannot be used
+
 /// What the chosen subcommand does; its result is the exit status: 0 done, 1 the answer is no. Bad input is thrown as
 /// InputError.
 using Action = std::function<int()>;

@@ -129,7 +129,6 @@ int converse(const ExploreOptions& options) {
   }
   explore::write_gamut_csv(options.out, conversation.gamut());
   if (interrupts.any()) return 1;
-  constexpr int kBadInput = 2;
   return is_understood ? 0 : kBadInput;
 }
 

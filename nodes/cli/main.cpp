@@ -19,7 +19,6 @@ namespace nacre::cli {
 namespace {
 
 constexpr int kLater = 1;
-constexpr int kBadInput = 2;
 
 /// Letters to be changed, added or left out to make one word of the other.
 std::size_t changes_between(const std::string& a, const std::string& b) {
