@@ -425,13 +425,13 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
   write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);
 }
 
-void diagnose(const TrialOptions& options, const fs::path& folder) {
+void diagnose(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
       fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
                   (folder / "set").string(), tester::to_string(options.fidelity),
-                  options.fracture || folder.filename().string().starts_with("fracture-") ? "--fracture" : "",
-                  (folder / "store").string(), result, (folder / "log").string());
+                  options.fracture || is_broken(trial) ? "--fracture" : "", (folder / "store").string(), result,
+                  (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());

@@ -5,7 +5,6 @@
 // below 1, since a crack takes another way at the least difference. Sample variances are those times chi squared over
 // its degrees of freedom; both unknowns have log-normal priors, and the posterior is summed over a grid.
 
-#include <optional>
 #include <span>
 #include <vector>
 
