@@ -59,56 +59,75 @@ NACRE_ALWAYS_INLINE Symmetric on_both_sides(const Symmetric& b, const Symmetric&
           start.xy + t12 + t21 + b.xx * t12 + b.xy * t22};
 }
 
+template <HiddenParts kParts>
 NACRE_ALWAYS_INLINE Stress respond(float h11, float h12, float h21, float h22, const HiddenMaterial& m,
                                    const HiddenStep& step, Memory& memory) {
-  const float scale = 1.0f / (1.0f + m.eigenstrain);
-  const float a = (h11 - m.eigenstrain) * scale, b = h12 * scale, c = h21 * scale, d = (h22 - m.eigenstrain) * scale;
+  float a = h11, b = h12, c = h21, d = h22;
+  if constexpr (kParts.shrinks) {
+    const float scale = 1.0f / (1.0f + m.eigenstrain);
+    a = (h11 - m.eigenstrain) * scale, b = h12 * scale, c = h21 * scale, d = (h22 - m.eigenstrain) * scale;
+  }
   Symmetric strain{2.0f * a + a * a + c * c, 2.0f * d + d * d + b * b, b + c + a * b + c * d};
-  // Plastic stretch exp(h): C_e = exp(-h) C exp(-h). Flow holds the deviator of C_e at its limit.
-  const Symmetric unstretch = inverse_stretch_less_one(memory.p_difference, memory.p_shear);
-  strain = on_both_sides(unstretch, {1.0f + strain.xx, 1.0f + strain.yy, strain.xy}, strain);
+  Symmetric unstretch{};
+  if constexpr (kParts.flows) {
+    // Plastic stretch exp(h): C_e = exp(-h) C exp(-h). Flow holds the deviator of C_e at its limit.
+    unstretch = inverse_stretch_less_one(memory.p_difference, memory.p_shear);
+    strain = on_both_sides(unstretch, {1.0f + strain.xx, 1.0f + strain.yy, strain.xy}, strain);
+  }
   float c11 = strain.xx, c22 = strain.yy, c12 = strain.xy;
-  const float half = 0.5f * (c11 - c22), size = std::sqrt(half * half + c12 * c12);
-  const bool flows = size > m.flow_limit;
-  const float cut = flows ? 1.0f - m.flow_limit / size : 0.0f, per_stretch = 1.0f / (2.0f + c11 + c22);
-  memory.p_difference += cut * half * per_stretch;
-  memory.p_shear += cut * c12 * per_stretch;
-  memory.work += flows ? m.mu * m.flow_limit * cut * size : 0.0f;
-  c11 -= cut * half;
-  c22 += cut * half;
-  c12 -= cut * c12;
+  if constexpr (kParts.flows) {
+    const float half = 0.5f * (c11 - c22), size = std::sqrt(half * half + c12 * c12);
+    const bool flows = size > m.flow_limit;
+    const float cut = flows ? 1.0f - m.flow_limit / size : 0.0f, per_stretch = 1.0f / (2.0f + c11 + c22);
+    memory.p_difference += cut * half * per_stretch;
+    memory.p_shear += cut * c12 * per_stretch;
+    memory.work += flows ? m.mu * m.flow_limit * cut * size : 0.0f;
+    c11 -= cut * half;
+    c22 += cut * half;
+    c12 -= cut * c12;
+  }
 
   const float area = larger(c11 + c22 + (c11 * c22 - c12 * c12), -0.98f);  // J^2 - 1
   const float log_j = 0.5f * log_of_one_plus(area), inverse = 1.0f / (1.0f + area);
   const float k = c11 + c22 - 2.0f * log_j;
-  const float filled = smaller(m.inverse_limit * k, kMostFilled);
-  const float shear = m.mu / (1.0f - filled), pressure = m.lambda * log_j;
-  const float minor = c11 * c22 - c12 * c12;
+  float shear = m.mu, chains = k;
+  if constexpr (kParts.fills) {
+    const float filled = smaller(m.inverse_limit * k, kMostFilled);
+    shear = m.mu / (1.0f - filled);
+    chains = m.inverse_limit > 0.0f ? -log_of_one_plus(-filled) / m.inverse_limit : k;
+  }
+  const float pressure = m.lambda * log_j, minor = c11 * c22 - c12 * c12;
   float s11 = shear * (c11 + minor) * inverse + pressure * (1.0f + c22) * inverse;
   float s22 = shear * (c22 + minor) * inverse + pressure * (1.0f + c11) * inverse;
   float s12 = (shear - pressure) * c12 * inverse;
-  const float chains = m.inverse_limit > 0.0f ? -log_of_one_plus(-filled) / m.inverse_limit : k;
-  float energy = 0.5f * (m.mu * chains + pressure * log_j) + memory.work;
+  float energy = 0.5f * (m.mu * chains + pressure * log_j);
+  if constexpr (kParts.flows) energy += memory.work;
 
-  const float middle = 0.5f * (c11 + c22), spread = std::sqrt(0.25f * (c11 - c22) * (c11 - c22) + c12 * c12);
-  const float compressive =
-      m.mu * (shortened(middle - spread) + shortened(middle + spread)) + (log_j < 0.0f ? pressure * log_j : 0.0f);
-  energy -= 0.5f * step.tension_only * compressive;
+  if constexpr (kParts.spares_crush) {
+    const float middle = 0.5f * (c11 + c22), spread = std::sqrt(0.25f * (c11 - c22) * (c11 - c22) + c12 * c12);
+    const float compressive =
+        m.mu * (shortened(middle - spread) + shortened(middle + spread)) + (log_j < 0.0f ? pressure * log_j : 0.0f);
+    energy -= 0.5f * step.tension_only * compressive;
+  }
 
-  // Maxwell branch: linear in Green's strain.
-  const float kept = 1.0f - step.relaxed;
-  const float e11 = 0.5f * c11 - memory.v11, e22 = 0.5f * c22 - memory.v22, e12 = 0.5f * c12 - memory.v12;
-  memory.v11 += step.relaxed * e11;
-  memory.v22 += step.relaxed * e22;
-  memory.v12 += step.relaxed * e12;
-  const float f11 = kept * e11, f22 = kept * e22, f12 = kept * e12, sum = f11 + f22;
-  s11 += m.overstress * (2.0f * m.mu * f11 + m.lambda * sum);
-  s22 += m.overstress * (2.0f * m.mu * f22 + m.lambda * sum);
-  s12 += m.overstress * 2.0f * m.mu * f12;
-  energy += m.overstress * (m.mu * (f11 * f11 + f22 * f22 + 2.0f * f12 * f12) + 0.5f * m.lambda * sum * sum);
+  if constexpr (kParts.relaxes) {
+    // Maxwell branch: linear in Green's strain.
+    const float kept = 1.0f - step.relaxed;
+    const float e11 = 0.5f * c11 - memory.v11, e22 = 0.5f * c22 - memory.v22, e12 = 0.5f * c12 - memory.v12;
+    memory.v11 += step.relaxed * e11;
+    memory.v22 += step.relaxed * e22;
+    memory.v12 += step.relaxed * e12;
+    const float f11 = kept * e11, f22 = kept * e22, f12 = kept * e12, sum = f11 + f22;
+    s11 += m.overstress * (2.0f * m.mu * f11 + m.lambda * sum);
+    s22 += m.overstress * (2.0f * m.mu * f22 + m.lambda * sum);
+    s12 += m.overstress * 2.0f * m.mu * f12;
+    energy += m.overstress * (m.mu * (f11 * f11 + f22 * f22 + 2.0f * f12 * f12) + 0.5f * m.lambda * sum * sum);
+  }
 
-  const Symmetric stress = on_both_sides(unstretch, {s11, s22, s12}, {s11, s22, s12});
-  s11 = stress.xx, s22 = stress.yy, s12 = stress.xy;
+  if constexpr (kParts.flows) {
+    const Symmetric stress = on_both_sides(unstretch, {s11, s22, s12}, {s11, s22, s12});
+    s11 = stress.xx, s22 = stress.yy, s12 = stress.xy;
+  }
   const float f1 = 1.0f + h11, f2 = 1.0f + h22;
   return {.p11 = f1 * s11 + h12 * s12,
           .p12 = f1 * s12 + h12 * s22,
@@ -118,11 +137,9 @@ NACRE_ALWAYS_INLINE Stress respond(float h11, float h12, float h21, float h22, c
           .jacobian = f1 * f2 - h12 * h21};
 }
 
-}  // namespace
-
-NACRE_VECTOR_CLONES
-int advance_hidden_elements(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden,
-                            const HiddenStep& hidden_step) {
+template <HiddenParts kParts>
+NACRE_ALWAYS_INLINE int advance(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden,
+                                const HiddenStep& hidden_step) {
   const float *wx0 = row.wx_lower, *wy0 = row.wy_lower, *wx1 = row.wx_upper, *wy1 = row.wy_upper;
   const float *vx0 = row.vx_lower, *vy0 = row.vy_lower, *vx1 = row.vx_upper, *vy1 = row.vy_upper;
   const float k = step.half_inverse_edge, e = step.grip_strain;
@@ -155,15 +172,21 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
                                   past.overstress[c]};
     // Written out point by point: the loop over elements is the one that becomes vector code.
     const auto at_point = [&](int point, float xi, float eta) __attribute__((always_inline)) {
-      Memory memory{past.plastic[point][0][c], past.plastic[point][1][c], past.work[point][c],
-                    past.viscous[point][0][c], past.viscous[point][1][c], past.viscous[point][2][c]};
-      const Stress stress = respond(ax + eta * cx, bx + xi * cx, ay + eta * cy, by + xi * cy, material, law, memory);
-      past.plastic[point][0][c] = memory.p_difference;
-      past.plastic[point][1][c] = memory.p_shear;
-      past.work[point][c] = memory.work;
-      past.viscous[point][0][c] = memory.v11;
-      past.viscous[point][1][c] = memory.v22;
-      past.viscous[point][2][c] = memory.v12;
+      Memory memory{};
+      if constexpr (kParts.flows)
+        memory.p_difference = past.plastic[point][0][c], memory.p_shear = past.plastic[point][1][c],
+        memory.work = past.work[point][c];
+      if constexpr (kParts.relaxes)
+        memory.v11 = past.viscous[point][0][c], memory.v22 = past.viscous[point][1][c],
+        memory.v12 = past.viscous[point][2][c];
+      const Stress stress =
+          respond<kParts>(ax + eta * cx, bx + xi * cx, ay + eta * cy, by + xi * cy, material, law, memory);
+      if constexpr (kParts.flows)
+        past.plastic[point][0][c] = memory.p_difference, past.plastic[point][1][c] = memory.p_shear,
+        past.work[point][c] = memory.work;
+      if constexpr (kParts.relaxes)
+        past.viscous[point][0][c] = memory.v11, past.viscous[point][1][c] = memory.v22,
+        past.viscous[point][2][c] = memory.v12;
       return stress;
     };
     const Stress q[4] = {at_point(0, -1.0f, -1.0f), at_point(1, 1.0f, -1.0f), at_point(2, -1.0f, 1.0f),
@@ -172,7 +195,7 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
     const float integrity = soften(past.integrity[c], energy, past.onset[c], softening);
     past.integrity[c] = integrity;
     const float jacobian = smaller(smaller(q[0].jacobian, q[1].jacobian), smaller(q[2].jacobian, q[3].jacobian));
-    const bool fails = (energy > threshold[c]) | is_spent(integrity, jacobian);
+    const bool fails = energy > failure_energy(threshold[c], integrity, jacobian);
     const bool stands = jacobian > 0.0f;
     mean_energy[c] = live ? 0.25f * ((q[0].energy + q[1].energy) + (q[2].energy + q[3].energy)) : 0.0f;
     mu_row[c] = fails ? 0.0f : mu;
@@ -204,6 +227,53 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
     y_axial[c] = keep * fby;
   }
   return broken > 0 ? -1 - broken : failures;
+}
+
+// One function per part and instruction set: what a specimen does not have is not computed.
+constexpr HiddenParts kAll{}, kFlowing{true, false, false, false, false}, kFilling{false, true, false, false, false},
+    kShrinking{false, false, true, false, false}, kRelaxing{false, false, false, true, false},
+    kSparing{false, false, false, false, true};
+
+NACRE_VECTOR_CLONES
+int advance_flowing(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kFlowing>(row, step, hidden, law);
+}
+
+NACRE_VECTOR_CLONES
+int advance_filling(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kFilling>(row, step, hidden, law);
+}
+
+NACRE_VECTOR_CLONES
+int advance_shrinking(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kShrinking>(row, step, hidden, law);
+}
+
+NACRE_VECTOR_CLONES
+int advance_relaxing(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kRelaxing>(row, step, hidden, law);
+}
+
+NACRE_VECTOR_CLONES
+int advance_sparing(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kSparing>(row, step, hidden, law);
+}
+
+NACRE_VECTOR_CLONES
+int advance_any(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {
+  return advance<kAll>(row, step, hidden, law);
+}
+
+}  // namespace
+
+int advance_hidden_elements(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden,
+                            const HiddenStep& law, const HiddenParts& parts) {
+  if (parts == kFlowing) return advance_flowing(row, step, hidden, law);
+  if (parts == kFilling) return advance_filling(row, step, hidden, law);
+  if (parts == kShrinking) return advance_shrinking(row, step, hidden, law);
+  if (parts == kRelaxing) return advance_relaxing(row, step, hidden, law);
+  if (parts == kSparing) return advance_sparing(row, step, hidden, law);
+  return advance_any(row, step, hidden, law);
 }
 
 }  // namespace nacre::laboratory

@@ -26,8 +26,18 @@ struct HiddenStep {
   float tension_only = 0.0f;
 };
 
-/// As advance_elements(), with the hidden law; advances the history.
+/// The parts of the hidden law that act, beside softening.
+struct HiddenParts {
+  bool flows = true;         ///< flow_limit
+  bool fills = true;         ///< inverse_limit
+  bool shrinks = true;       ///< eigenstrain
+  bool relaxes = true;       ///< overstress
+  bool spares_crush = true;  ///< tension_only
+  bool operator==(const HiddenParts&) const = default;
+};
+
+/// As advance_elements(), with the hidden law; advances the history. One part alone is up to six times as fast as all.
 int advance_hidden_elements(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden,
-                            const HiddenStep& hidden_step);
+                            const HiddenStep& hidden_step, const HiddenParts& parts);
 
 }  // namespace nacre::laboratory

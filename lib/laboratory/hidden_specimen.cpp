@@ -52,7 +52,13 @@ double mean_modulus(const Raster& raster) {
 }
 
 HiddenSpecimen::HiddenSpecimen(const Raster& raster, double time_step_s)
-    : stride_(static_cast<std::size_t>(raster.columns) + 32), only_softens_(raster.law.only_softens()) {
+    : stride_(static_cast<std::size_t>(raster.columns) + 32),
+      only_softens_(raster.law.only_softens()),
+      parts_{.flows = !raster.law.yield_pa.empty(),
+             .fills = !raster.law.inverse_limit.empty(),
+             .shrinks = !raster.law.eigenstrain.empty(),
+             .relaxes = !raster.law.overstress.empty(),
+             .spares_crush = raster.law.tension_only > 0.0} {
   const HiddenLaw& law = raster.law;
   const std::vector<double> none;
   flow_limit_ = padded(raster, none, kNever, stride_);
@@ -104,7 +110,7 @@ int HiddenSpecimen::advance(int row, ElementRow elements, const ElementStep& ste
     hidden.work[point] = row_of(work_[point], row);
     for (std::size_t i = 0; i < 3; ++i) hidden.viscous[point][i] = row_of(viscous_[point][i], row);
   }
-  return advance_hidden_elements(elements, step, hidden, step_);
+  return advance_hidden_elements(elements, step, hidden, step_, parts_);
 }
 
 }  // namespace nacre::laboratory

@@ -32,7 +32,8 @@ class HiddenSpecimen {
   float* row_of(std::vector<float>& field, int row) { return &field[static_cast<std::size_t>(row) * stride_]; }
 
   std::size_t stride_;
-  bool only_softens_;         ///< nothing else is hidden: the simpler kernel does
+  bool only_softens_;  ///< nothing else is hidden: the simpler kernel does
+  HiddenParts parts_;
   float last_energy_ = 1.0f;  ///< energy density over that of the onset, at which an element is gone
   HiddenStep step_;
   std::vector<float> flow_limit_, inverse_limit_, eigenstrain_, overstress_, onset_, threshold_, integrity_;

@@ -34,4 +34,10 @@ struct SofteningShape {
   return (integrity < 0.1f) & (jacobian < 0.1f);
 }
 
+/// The energy density (J/m^3) above which an element fails: any, of one that is spent. Beside a comparison of the
+/// energy a second condition of failure would keep GCC from making the loop over elements vector code.
+[[gnu::always_inline]] inline float failure_energy(float threshold, float integrity, float jacobian) {
+  return is_spent(integrity, jacobian) ? -1.0f : threshold;
+}
+
 }  // namespace nacre::laboratory
