@@ -62,7 +62,88 @@ std::vector<material::ParameterSet> planned_runs(const Basis& basis, bool with_p
   return sets;
 }
 
-/// Effects that have a signature in these rows, in the order of material::effect_library().
+/// The most probable eta where it is searched for, with what was simulated on the way; the given one otherwise.
+FractureSearch search_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
+  if (fractures == nullptr || settings.search_budget <= 0) return {settings.start.toughness, {}};
+  const auto searching = [&](double share, std::string_view) {
+    if (settings.progress) settings.progress(0.2 * share, "calibrating the fracture tester");
+  };
+  return fractures->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
+}
+
+/// Runs of the search, and around what it found.
+std::vector<FractureRun> runs_around(const FractureTests& fractures, std::vector<FractureRun> runs, const Basis& basis,
+                                     const DiagnosisSettings& settings) {
+  const std::vector<material::ParameterSet> sets =
+      planned_runs(basis, runs.empty(), settings.procedure.emulator, settings.seed);
+  const double all = static_cast<double>(sets.size() * fractures.groups().size());
+  int count = 0;
+  auto further = fractures.runs_at(sets, runs, [&] {
+    ++count;
+    if (settings.progress)
+      settings.progress(0.3 + 0.25 * std::min(1.0, count / all),
+                        fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
+  });
+  std::ranges::move(further, std::back_inserter(runs));
+  return runs;
+}
+
+/// What finer elements change at the calibration.
+std::vector<RefinedLayout> refined_around(const FractureTests& fractures, const material::ParameterSet& centre,
+                                          const DiagnosisSettings& settings) {
+  int count = 0;
+  return fractures.refined_layouts(centre, settings.procedure.curves, settings.procedure.emulator, [&] {
+    ++count;
+    if (settings.progress)
+      settings.progress(0.2, fmt::format("fracture tests on finer elements at the calibration: {} done", count));
+  });
+}
+
+/// The same in the rows of these layouts, whatever their conditions.
+Eigen::VectorXd fracture_change(const Observations& observations, const std::vector<RefinedLayout>& layouts) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(observations.size());
+  for (int i = 0; i < observations.size(); ++i) {
+    const DataRow& row = observations.rows[i];
+    if (row.kind != RowKind::mean || row.test != tester::TestKind::toughness) continue;
+    const auto layout = std::ranges::find(layouts, observations.group_of(i).design, &RefinedLayout::design);
+    if (layout != layouts.end()) change[i] = layout->change(row.feature).value_or(0.0);
+  }
+  return change;
+}
+
+/// What the runs teach, and its error as variances of the rows.
+std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
+                                                      const EmulatorRules& rules) {
+  return std::make_shared<const FractureSurface>(data.observations, data.fractures->groups(), data.runs,
+                                                 basis.centre.toughness, rules);
+}
+
+Eigen::VectorXd emulator_variance(const Observations& observations, const FractureSurface& surface,
+                                  const material::ParameterSet& at) {
+  const Eigen::VectorXd own = surface.mean_variance(at);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(observations.size());
+  for (std::size_t k = 0; k < surface.rows().size(); ++k) variance[surface.rows()[k].row] = own[k];
+  return variance;
+}
+
+/// Error of a surface at a run that it has not learnt from, in its own standard deviations.
+double error_at(const FractureRun& run, const FractureSurface& surface, const CurveReading& reading) {
+  const Eigen::VectorXd expected = surface.predict(run.parameters);
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t r = 0; r < surface.rows().size(); ++r) {
+    const SurfaceRow& row = surface.rows()[r];
+    const auto value = value_of(shown_features(run.predictions[row.group], {}, reading), row.feature);
+    const double variance = surface.run_variance()[r];
+    if (!value || variance <= 0.0) continue;
+    squares += std::pow(*value - expected[r], 2) / variance;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+}  // namespace
+
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
                                         const FitRules& rules) {
   const CoordinateMap base = model.base_map();
@@ -90,63 +171,6 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   return acting;
 }
 
-/// The most probable eta where it is searched for, with what was simulated on the way; the given one otherwise.
-FractureSearch search_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
-  if (fractures == nullptr || settings.search_budget <= 0) return {settings.start.toughness, {}};
-  const auto searching = [&](double share, std::string_view) {
-    if (settings.progress) settings.progress(0.3 * share, "calibrating the fracture tester");
-  };
-  return fractures->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
-}
-
-/// Runs of the search, and around what it found.
-std::vector<FractureRun> runs_around(const FractureTests& fractures, std::vector<FractureRun> runs, const Basis& basis,
-                                     const DiagnosisSettings& settings) {
-  const std::vector<material::ParameterSet> sets =
-      planned_runs(basis, runs.empty(), settings.procedure.emulator, settings.seed);
-  const double all = static_cast<double>(sets.size() * fractures.groups().size());
-  int count = 0;
-  auto further = fractures.runs_at(sets, runs, [&] {
-    ++count;
-    if (settings.progress)
-      settings.progress(0.3 + 0.25 * std::min(1.0, count / all),
-                        fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
-  });
-  std::ranges::move(further, std::back_inserter(runs));
-  return runs;
-}
-
-/// What the runs teach, and its error as variances of the rows.
-std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
-                                                      const EmulatorRules& rules) {
-  return std::make_shared<const FractureSurface>(data.observations, data.fractures->groups(), data.runs,
-                                                 basis.centre.toughness, rules);
-}
-
-Eigen::VectorXd emulator_variance(const Observations& observations, const FractureSurface& surface) {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(observations.size());
-  for (std::size_t k = 0; k < surface.rows().size(); ++k) variance[surface.rows()[k].row] = surface.mean_variance()[k];
-  return variance;
-}
-
-/// Error of a surface at a run that it has not learnt from, in its own standard deviations.
-double error_at(const FractureRun& run, const FractureSurface& surface, const CurveReading& reading) {
-  const Eigen::VectorXd expected = surface.predict(run.parameters);
-  double squares = 0.0;
-  int count = 0;
-  for (std::size_t r = 0; r < surface.rows().size(); ++r) {
-    const SurfaceRow& row = surface.rows()[r];
-    const auto value = value_of(shown_features(run.predictions[row.group], {}, reading), row.feature);
-    const double variance = surface.run_variance()[r];
-    if (!value || variance <= 0.0) continue;
-    squares += std::pow(*value - expected[r], 2) / variance;
-    ++count;
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0.0;
-}
-
-}  // namespace
-
 Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
   const Procedure& procedure = settings.procedure;
   Observations observations =
@@ -164,10 +188,14 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   const Basis basis = basis_for(observations, centre, settings.ranges, procedure.constants);
   Data data{observations, fractures, {}, FeatureModel(observations, basis, settings.fidelity), {}};
   if (fractures) {
+    const std::vector<RefinedLayout> refined = refined_around(*fractures, centre, settings);
+    data.observations.fracture_discretisation =
+        at_own_constants(settings.fracture_discretisation, refined, procedure.emulator);
+    data.observations.fracture_change = fracture_change(data.observations, refined);
     data.runs = runs_around(*fractures, std::move(search.runs), basis, settings);
     const auto surface = learnt_surface(data, basis, procedure.emulator);
     data.model = data.model.with_surface(surface);
-    data.observations.emulator_variance = emulator_variance(data.observations, *surface);
+    data.observations.emulator_variance = emulator_variance(data.observations, *surface, basis.centre);
   }
   data.effects = acting_effects(data.model, data.observations, procedure.fit);
   return data;
@@ -181,10 +209,10 @@ LearntData learnt_at(const Data& data, const std::vector<material::ParameterSet>
     learnt.largest_error = std::max(learnt.largest_error, error_at(run, before, data.observations.reading));
     learnt.data.runs.push_back(std::move(run));
   }
-  if (learnt.data.runs.size() == data.runs.size()) return learnt;
-  const auto surface = learnt_surface(learnt.data, data.model.basis(), rules);
-  learnt.data.model = data.model.with_surface(surface);
-  learnt.data.observations.emulator_variance = emulator_variance(data.observations, *surface);
+  if (learnt.data.runs.size() > data.runs.size())
+    learnt.data.model = data.model.with_surface(learnt_surface(learnt.data, data.model.basis(), rules));
+  learnt.data.observations.emulator_variance =
+      emulator_variance(data.observations, *learnt.data.model.surface(), sets.front());
   return learnt;
 }
 

@@ -24,7 +24,12 @@ struct Data {
 /// NothingMeasured.
 Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
-/// Data whose fracture tests were simulated at further parameters, with the emulator that has learnt from them.
+/// Effects that have a signature in these rows, in the order of material::effect_library().
+std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
+                                        const FitRules& rules);
+
+/// Data whose fracture tests were simulated at further parameters, with the emulator that has learnt from them; its
+/// error is that at the first of them.
 struct LearntData {
   Data data;
   double largest_error = 0.0;  ///< of the emulator before, at the new points, in its own standard deviations

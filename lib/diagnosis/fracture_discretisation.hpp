@@ -4,9 +4,11 @@
 
 #include <Eigen/Dense>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/features.hpp"
+#include "pattern/design.hpp"
 #include "tester/names.hpp"
 
 namespace nacre::diagnosis {
@@ -20,6 +22,24 @@ struct FractureDiscretisation {
   /// the list.
   double covariance(Feature a, Feature b, double z_a, double z_b, bool same_layout) const;
 };
+
+/// A layout as it breaks on elements of h and of h/2: features of the same specimens.
+struct RefinedLayout {
+  pattern::Design design;
+  std::vector<FeatureValues> coarse, fine;
+  /// Mean change of a feature with finer elements; nothing where some specimen does not show it.
+  std::optional<double> change(Feature feature) const;
+};
+
+/// The discretisation error of layouts at their own constants: of `table` the shared parts, and as much of its
+/// covariance between features of one layout as these layouts, whose change with finer elements is known but for the
+/// scatter of few specimens, leave open. A feature that one of them lacks keeps the table's. Without a table the
+/// layouts' own.
+FractureDiscretisation at_own_constants(const FractureDiscretisation& table, const std::vector<RefinedLayout>& layouts,
+                                        const EmulatorRules& rules);
+
+/// Where a layout stands between the rigid fractions of the study: z above.
+double rigid_position(const pattern::Design& design);
 
 /// Reads [FIDELITY.curve]; a file without that table knows nothing. Throws InputError naming file and key.
 FractureDiscretisation read_fracture_discretisation(const std::filesystem::path& file, tester::Fidelity fidelity);

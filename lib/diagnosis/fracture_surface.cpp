@@ -163,7 +163,7 @@ std::vector<int> FractureSurface::half_nearest_to_the_centre() const {
 }
 
 FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
-  Learnt learnt{rows, {}, values.colwise().mean(), {}};
+  Learnt learnt{rows, {}, values.colwise().mean(), {}, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
   Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
   const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
   centred /= spread;
@@ -174,19 +174,18 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
   learn_effects(learnt, centred);
   std::vector<int> all(points_.size());
   std::iota(all.begin(), all.end(), 0);
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, all));
-  const Eigen::MatrixXd inverse = factor.solve(
+  learnt.factor.compute(covariance_matrix(learnt.kernel, all));
+  const Eigen::MatrixXd inverse = learnt.factor.solve(
       Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
   const Eigen::MatrixXd weights = inverse * centred;
   const std::vector<int> near = half_nearest_to_the_centre();
-  // What the process expects where a run is left out: of that run, and of the mean over specimens there.
-  double of_run = 0.0, of_mean = 0.0;
-  for (const int k : near) of_run += 1.0 / inverse(k, k), of_mean += 1.0 / inverse(k, k) - square(learnt.kernel.noise);
+  double expected = 0.0;  // of a run that is left out
+  for (const int k : near) expected += 1.0 / inverse(k, k) / static_cast<double>(near.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     double sum = 0.0;
     for (const int k : near) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
     run_variance_[rows[r]] = square(spread) * sum / static_cast<double>(near.size());
-    mean_variance_[rows[r]] = run_variance_[rows[r]] * std::max(of_mean, 0.0) / of_run;
+    learnt.variance_scale[static_cast<Eigen::Index>(r)] = run_variance_[rows[r]] / expected;
   }
   learnt.weights = spread * weights;
   return learnt;
@@ -214,7 +213,7 @@ void FractureSurface::learn() {
   for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
   std::vector<std::vector<int>> kinds;
   for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
-  run_variance_ = mean_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  run_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   learnt_.assign(kinds.size(), {});
   parallel_for(kinds.size(), [&](int k) {
     const auto& rows = kinds[k];
@@ -262,9 +261,8 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
   const SurfacePoint at = point_of(set);
   Eigen::VectorXd result(static_cast<Eigen::Index>(rows_.size()));
   for (const Learnt& learnt : learnt_) {
-    Eigen::VectorXd to_runs(static_cast<Eigen::Index>(points_.size()));
-    for (std::size_t k = 0; k < points_.size(); ++k) to_runs[k] = covariance(learnt.kernel, at, points_[k]);
-    const Eigen::RowVectorXd values = learnt.mean + to_runs.transpose() * learnt.weights;
+    const Eigen::RowVectorXd values =
+        learnt.mean + covariance_with_runs(learnt.kernel, at).transpose() * learnt.weights;
     for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[r];
   }
   const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
@@ -273,6 +271,24 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
   });
   if (machine) result += machine_change(set, at);
   return result;
+}
+
+Eigen::VectorXd FractureSurface::covariance_with_runs(const Kernel& kernel, const SurfacePoint& at) const {
+  Eigen::VectorXd covariances(static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t k = 0; k < points_.size(); ++k) covariances[k] = covariance(kernel, at, points_[k]);
+  return covariances;
+}
+
+Eigen::VectorXd FractureSurface::mean_variance(const material::ParameterSet& set) const {
+  const SurfacePoint at = point_of(set);
+  Eigen::VectorXd variance(static_cast<Eigen::Index>(rows_.size()));
+  for (const Learnt& learnt : learnt_) {
+    const Eigen::VectorXd to_runs = covariance_with_runs(learnt.kernel, at);
+    const double left = covariance(learnt.kernel, at, at) - to_runs.dot(learnt.factor.solve(to_runs));
+    for (std::size_t r = 0; r < learnt.rows.size(); ++r)
+      variance[learnt.rows[r]] = learnt.variance_scale[static_cast<Eigen::Index>(r)] * std::max(left, 0.0);
+  }
+  return variance;
 }
 
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {

@@ -39,9 +39,9 @@ class FractureSurface {
   /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre. A run is one
   /// specimen's crack: its own scatter is in it.
   const Eigen::VectorXd& run_variance() const { return run_variance_; }
-  /// Variance of the expectation over specimens that predict() gives, per row: the posterior one of the process where
-  /// a run is left out, scaled so that run_variance() is what the process expects.
-  const Eigen::VectorXd& mean_variance() const { return mean_variance_; }
+  /// Variance of the expectation over specimens that predict() gives at a parameter set, per row: the posterior one of
+  /// the process, scaled so that run_variance() is what the process expects. Small where many runs are near.
+  Eigen::VectorXd mean_variance(const material::ParameterSet& set) const;
 
  private:
   struct SurfacePoint {
@@ -56,10 +56,13 @@ class FractureSurface {
     std::vector<int> rows;  ///< indices into rows_
     Kernel kernel;
     Eigen::RowVectorXd mean;
-    Eigen::MatrixXd weights;  ///< runs x rows
+    Eigen::MatrixXd weights;             ///< runs x rows
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the runs, in units of the feature's spread
+    Eigen::VectorXd variance_scale;      ///< of that process to the errors at runs that were left out, per row
   };
   SurfacePoint point_of(const material::ParameterSet& set) const;
   double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) const;
+  Eigen::VectorXd covariance_with_runs(const Kernel& kernel, const SurfacePoint& at) const;
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
   /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
@@ -78,7 +81,7 @@ class FractureSurface {
   std::vector<SurfaceRow> rows_;
   std::vector<SurfacePoint> points_;
   std::vector<Learnt> learnt_;
-  Eigen::VectorXd run_variance_, mean_variance_;
+  Eigen::VectorXd run_variance_;
 };
 
 }  // namespace nacre::diagnosis

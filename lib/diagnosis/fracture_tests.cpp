@@ -31,6 +31,21 @@ FractureRun run_of(const material::ParameterSet& parameters, const std::vector<s
   return run;
 }
 
+/// Indices of so many upright designs, from the least rigid to the most.
+std::vector<std::size_t> spread_over_rigid_fraction(const std::vector<measurement::Replicates>& measured, int most) {
+  std::vector<std::size_t> upright;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const auto same = [&](std::size_t other) { return measured[other].design == measured[i].design; };
+    if (measured[i].conditions.orientation_deg == 0.0 && std::ranges::none_of(upright, same)) upright.push_back(i);
+  }
+  std::ranges::stable_sort(upright, {}, [&](std::size_t i) { return measured[i].design.rigid_fraction(); });
+  const auto count = static_cast<std::size_t>(std::max(most, 2));
+  if (upright.size() <= count) return upright;
+  std::vector<std::size_t> spread;
+  for (std::size_t k = 0; k < count; ++k) spread.push_back(upright[k * (upright.size() - 1) / (count - 1)]);
+  return spread;
+}
+
 }  // namespace
 
 material::ParameterSet simulated_side(const material::ParameterSet& set) {
@@ -87,6 +102,35 @@ std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::Para
   std::vector<FractureRun> runs;
   for (std::size_t k = 0; k < wanted.size(); ++k) runs.push_back({wanted[k].parameters, std::move(predictions[k])});
   return runs;
+}
+
+std::vector<RefinedLayout> FractureTests::refined_layouts(const material::ParameterSet& set,
+                                                          const CurveReading& reading, const EmulatorRules& rules,
+                                                          const std::function<void()>& done) const {
+  const std::vector<std::size_t> items = spread_over_rigid_fraction(measured_, rules.refined_layouts);
+  std::vector<sysid::WantedEvaluation> wanted;
+  for (const int refinement : {1, 2})
+    for (int k = 0; k < rules.refined_specimens; ++k)
+      wanted.push_back({.id = fmt::format("h/{} {}", refinement, k),
+                        .parameters = simulated_side(set),
+                        .toughness = true,
+                        .items = items,
+                        .first_specimen = tester::kFirstPredictionSpecimen + k,
+                        .refinement = refinement});
+  const auto predictions = simulator_->simulate(measured_, wanted, done);
+  const auto count = static_cast<std::size_t>(rules.refined_specimens);
+  std::vector<RefinedLayout> layouts;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    RefinedLayout layout{.design = measured_[items[i]].design, .coarse = {}, .fine = {}};
+    bool broke = true;
+    for (std::size_t k = 0; k < 2 * count; ++k) {
+      const sysid::Prediction& one = predictions[k][i];
+      broke = broke && one.toughness_pa.has_value();
+      (k < count ? layout.coarse : layout.fine).push_back(shown_features(one, {}, reading));
+    }
+    if (broke) layouts.push_back(std::move(layout));
+  }
+  return layouts;
 }
 
 // Turned twins and other conditions are the same specimens to the base model: one of each design is simulated. A group

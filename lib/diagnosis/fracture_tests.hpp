@@ -44,6 +44,11 @@ class FractureTests {
   /// All groups at each of these sets that is not among the `known` runs; `done` after every simulation.
   std::vector<FractureRun> runs_at(const std::vector<material::ParameterSet>& sets, std::span<const FractureRun> known,
                                    const std::function<void()>& done = {}) const;
+  /// Up to `rules.refined_layouts` of the upright layouts, spread over their rigid fractions, on elements of h and of
+  /// h/2 at these parameters: specimens that nothing else is learnt from. Those of which some specimen failed are left
+  /// out.
+  std::vector<RefinedLayout> refined_layouts(const material::ParameterSet& set, const CurveReading& reading,
+                                             const EmulatorRules& rules, const std::function<void()>& done = {}) const;
   /// Simulations really done.
   int simulations() const { return simulator_->simulations(); }
   /// A calibration of the base model to the measured toughness and peaks, from `start` in `ranges`.

@@ -176,8 +176,6 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
   return offsets;
 }
 
-double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
-
 /// Correlations of one covariance, variances of another. Few replicates determine how much one material scatters, not
 /// how its features correlate: combinations of features that seem not to scatter would count for everything.
 Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
@@ -273,8 +271,8 @@ RowCovariance Observations::row_covariance(int i, int j) const {
   const bool same = group_of(i).design == group_of(j).design;
   if (a.test == TestKind::modulus && same) covariance.fixed = discretisation_sd * discretisation_sd;
   if (a.test == TestKind::toughness)
-    covariance.fixed = fracture_discretisation.covariance(a.feature, b.feature, rigid_position(group_of(i)),
-                                                          rigid_position(group_of(j)), same);
+    covariance.fixed = fracture_discretisation.covariance(a.feature, b.feature, rigid_position(group_of(i).design),
+                                                          rigid_position(group_of(j).design), same);
   return covariance;
 }
 
@@ -315,7 +313,7 @@ Eigen::VectorXd Observations::own_variances() const {
 
 Eigen::MatrixXd Observations::shared_directions() const {
   Eigen::MatrixXd directions(size(), 0);
-  for (const Eigen::MatrixXd* own : {&discretisation_shared, &levels}) {
+  for (const Eigen::MatrixXd* own : {&fracture_change, &discretisation_shared, &levels}) {
     if (own->rows() != size()) continue;
     directions.conservativeResize(Eigen::NoChange, directions.cols() + own->cols());
     directions.rightCols(own->cols()) = *own;

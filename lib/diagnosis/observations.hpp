@@ -129,6 +129,8 @@ struct Observations {
   std::vector<ReplicateScatter> scatter = std::vector<ReplicateScatter>(3);
   double discretisation_sd = 0.0;                  ///< per layout, of log E, independent between layouts
   FractureDiscretisation fracture_discretisation;  ///< the same of the features of a fracture test
+  Eigen::MatrixXd fracture_change;                 ///< rows x 1: of fracture tests, what finer elements change at the
+                                                   ///< calibration; the discretisation error is so much, more or less
   Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
                                                    ///< standard deviation; may be empty
   Eigen::MatrixXd levels;                          ///< rows x free levels of factors (factors.hpp), the same

@@ -82,6 +82,11 @@ struct EmulatorRules {
   int refinements = 3;                            ///< how often fits are simulated and learnt from
   int refined_effects = 4;                        ///< of the best effects, beside the base
   double well_known = 1.5;                        ///< error of the emulator at a fit, in its own, that needs no more
+  int refined_layouts = 24;                       ///< that are broken on half elements too, of most different stiffness
+  int refined_specimens = 4;                      ///< of each
+  double floor_log_sd = 1.1;  ///< of a variance in the table of discretisation errors, for one set of constants: the
+                              ///< two of docs/studies/discretisation-floor.md differ by up to a factor of nine
+  int floor_worth = 10;       ///< layouts that the correlations in the table are worth
   static constexpr void fields(auto& field, auto& m);
 };
 
@@ -126,6 +131,7 @@ struct NameRules {
   double pair_share = 0.5;                           ///< of what the best one explains: an anchor explains as much
   std::array<double, 16> amplitudes{0.0, 0.25, 0.35, 0.5, 0.7,  1.0,  1.4,  2.0,
                                     2.8, 4.0,  5.6,  8.0, 11.0, 16.0, 23.0, 32.0};  ///< tried of a discrepancy, in sd
+  double carried = 0.3;          ///< share of an effect's largest signal of a feature from which a feature carries it
   double along_contrasts = 0.5;  ///< of a discrepancy's variance, the rest is each design's own
   int discrepancy_draws = 1000;  ///< at most
   /// SNR below which no name is given: the rest beside a collinear effect would not be visible.

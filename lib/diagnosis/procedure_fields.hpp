@@ -68,6 +68,10 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("refinements", m.refinements);
   field("refined_effects", m.refined_effects);
   field("well_known", m.well_known);
+  field("refined_layouts", m.refined_layouts);
+  field("refined_specimens", m.refined_specimens);
+  field("floor_log_sd", m.floor_log_sd);
+  field("floor_worth", m.floor_worth);
 }
 
 constexpr void FitRules::fields(auto& field, auto& m) {
@@ -105,6 +109,7 @@ constexpr void NameRules::fields(auto& field, auto& m) {
   field("pair_anchors", m.pair_anchors);
   field("pair_share", m.pair_share);
   field("amplitudes", m.amplitudes);
+  field("carried", m.carried);
   field("along_contrasts", m.along_contrasts);
   field("discrepancy_draws", m.discrepancy_draws);
 }

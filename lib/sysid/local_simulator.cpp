@@ -3,10 +3,13 @@
 #include <map>
 #include <mutex>
 
+#include <fmt/format.h>
+
 #include "base/parallel.hpp"
 #include "base/statistics.hpp"
 #include "sysid/prediction_store.hpp"
 #include "tester/modulus.hpp"
+#include "tester/refinement.hpp"
 #include "tester/simulation_key.hpp"
 #include "tester/strength_field.hpp"
 #include "tester/toughness.hpp"
@@ -18,6 +21,7 @@ namespace {
 struct Task {
   tester::TestKind kind = tester::TestKind::modulus;
   tester::Simulation simulation;
+  int refinement = 1;
   std::string key;
 };
 
@@ -25,7 +29,7 @@ Prediction run(const Task& task) {
   Prediction prediction;
   if (task.kind == tester::TestKind::modulus) {
     if (const auto result = tester::test_modulus(task.simulation)) prediction.modulus_pa = result->modulus_pa;
-  } else if (auto result = tester::test_toughness(task.simulation)) {
+  } else if (auto result = tester::test_toughness(task.simulation, {.refinement = task.refinement})) {
     prediction.toughness_pa = result->toughness_pa;
     prediction.curve = std::move(result->curve);
   }
@@ -41,9 +45,13 @@ struct LocalSimulator::State {
   int simulations = 0;
 
   Task task_of(const measurement::Replicates& measured, const material::ParameterSet& parameters, tester::TestKind kind,
-               int specimen = 0) const {
-    Task task{kind, {measured.design, parameters, measured.conditions, fidelity, specimen}, {}};
+               int specimen = 0, int refinement = 1) const {
+    Task task{kind,
+              {measured.design, tester::refined(parameters, refinement), measured.conditions, fidelity, specimen},
+              refinement,
+              {}};
     task.key = tester::simulation_key(task.simulation, kind);
+    if (refinement > 1) task.key += fmt::format("/h{}", refinement);
     return task;
   }
 
@@ -54,8 +62,8 @@ struct LocalSimulator::State {
     if (!evaluation.toughness) return tasks;
     const int count = tester::specimens_differ(evaluation.parameters) ? evaluation.specimens : 1;
     for (int i = 0; i < count; ++i)
-      tasks.push_back(
-          task_of(measured, evaluation.parameters, tester::TestKind::toughness, evaluation.first_specimen + i));
+      tasks.push_back(task_of(measured, evaluation.parameters, tester::TestKind::toughness,
+                              evaluation.first_specimen + i, evaluation.refinement));
     return tasks;
   }
 

@@ -19,6 +19,8 @@ struct WantedEvaluation {
   /// T is the mean over so many specimens from that number on, where specimens differ.
   int first_specimen = tester::kSearchSpecimen;
   int specimens = 1;
+  int refinement =
+      1;  ///< of the elements of fracture tests (tester::Discretisation); other than 1 in this process only
 };
 
 /// An evaluation whose T is that of a prediction: the mean over specimens that nothing was chosen by.

@@ -76,5 +76,55 @@ TEST(Whitener, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_THROW(Whitener((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished()), std::runtime_error);
 }
 
+/// Layouts whose toughness changes by this much from one to the next beside a common change, and a tough one's more;
+/// specimens scatter, on either mesh by themselves.
+std::vector<RefinedLayout> refined_layouts(int count, double change_sd, double scatter) {
+  RandomStream random(11, "refined layouts");
+  std::vector<RefinedLayout> layouts;
+  for (const pattern::Pattern& pattern : pattern::stratified_patterns(count, random)) {
+    RefinedLayout layout{.design = pattern, .coarse = {}, .fine = {}};
+    const double change = 0.1 + 0.05 * rigid_position(layout.design) + change_sd * random.normal();
+    for (int k = 0; k < 4; ++k) {
+      FeatureValues coarse, fine;
+      value_of(coarse, Feature::log_toughness) = 12.0 + scatter * random.normal();
+      value_of(fine, Feature::log_toughness) = 12.0 + change + scatter * random.normal();
+      layout.coarse.push_back(coarse), layout.fine.push_back(fine);
+    }
+    layouts.push_back(std::move(layout));
+  }
+  return layouts;
+}
+
+double sd_of_toughness(const FractureDiscretisation& discretisation) {
+  return std::sqrt(discretisation.covariance(Feature::log_toughness, Feature::log_toughness, 0.0, 0.0, true) -
+                   discretisation.covariance(Feature::log_toughness, Feature::log_toughness, 0.0, 0.0, false));
+}
+
+TEST(FractureDiscretisation, AtOwnConstantsIsWhatTheLayoutsShow) {
+  const FractureDiscretisation table = read_fracture_discretisation(kShipped, tester::Fidelity::tiny);
+  double sum = 0.0;
+  for (const double sd : {0.03, 0.06, 0.12}) {
+    const double found = sd_of_toughness(at_own_constants(table, refined_layouts(40, sd, 0.05), {}));
+    EXPECT_NEAR(found, sd, 0.35 * sd);
+    EXPECT_GT(found, sum) << "more, where layouts differ more";
+    sum = found;
+  }
+}
+
+TEST(FractureDiscretisation, AtOwnConstantsKeepsTheTableWhereLittleIsShown) {
+  const FractureDiscretisation table = read_fracture_discretisation(kShipped, tester::Fidelity::tiny);
+  EXPECT_EQ(sd_of_toughness(at_own_constants(table, refined_layouts(2, 0.03, 0.05), {})), sd_of_toughness(table));
+  const FractureDiscretisation own = at_own_constants(table, refined_layouts(40, 0.03, 0.05), {});
+  EXPECT_EQ(own.layout(6, 6), table.layout(6, 6)) << "the peak, which these layouts do not show";
+  EXPECT_EQ(own.shared, table.shared);
+  EXPECT_NO_THROW(Whitener(tidy_laboratory(own).covariance()));
+}
+
+TEST(FractureDiscretisation, WithoutATableItIsTheLayoutsOwn) {
+  const FractureDiscretisation own = at_own_constants({}, refined_layouts(40, 0.06, 0.05), {});
+  EXPECT_NEAR(sd_of_toughness(own), 0.06, 0.02);
+  EXPECT_NEAR(std::sqrt(own.shared(0, 0)), 0.1, 0.03) << "the common change";
+}
+
 }  // namespace
 }  // namespace nacre::diagnosis
