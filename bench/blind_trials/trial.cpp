@@ -428,9 +428,8 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
 void diagnose(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
-      fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
-                  (folder / "set").string(), tester::to_string(options.fidelity),
-                  options.fracture || is_broken(trial) ? "--fracture" : "", (folder / "store").string(), result,
+      fmt::format("'{}' diagnose '{}' --fidelity {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
+                  (folder / "set").string(), tester::to_string(options.fidelity), (folder / "store").string(), result,
                   (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

@@ -44,6 +44,7 @@ enum class Reason {
   other_material,       ///< ambiguous: the base fits with constants of another material
   factor,               ///< unexplained: free levels of factors explain the data, of which no effect is a law
   free_form,            ///< named: the data depend on the strain rate, and no law of it fits
+  carried_part,         ///< named: one explains the part of the data that carries it; elsewhere residuals stay
   nothing_visible,      ///< insufficient: no effect of usual size would have been visible
 };
 
@@ -53,9 +54,11 @@ struct Finding {
   std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen: the effects that come nearest
   double value = 0.0;      ///< residuals_stay: share of chi squared that they take away; at_bound: size in the
                            ///< effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
-                           ///< chance of a misfit as large as that of the nearest law
+                           ///< chance of a misfit as large as that of the nearest law; carried_part: residuals of the
+                           ///< feature that misfits most elsewhere, in standard deviations
   double needed = 0.0;     ///< weak_signal, discrepancy: of a name
-  std::string along = {};  ///< contrast, condition: which
+  std::string along = {};  ///< contrast, condition: which; carried_part: the feature that misfits most elsewhere
+  std::vector<Feature> carriers = {};  ///< carried_part: features of the part
 };
 
 /// A fitted number with its 90 % interval, in the unit of the effect.

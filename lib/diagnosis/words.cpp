@@ -101,6 +101,14 @@ std::string factors_in_words(const std::vector<std::vector<std::string>>& sets) 
   return fmt::format("{}", fmt::join(words, ", or of "));
 }
 
+/// "strain of the toe and stress at the peak", each once
+std::string features_in_words(const std::vector<Feature>& features) {
+  std::vector<std::string_view> words;
+  for (const Feature feature : features)
+    if (std::ranges::find(words, in_words(feature)) == words.end()) words.push_back(in_words(feature));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 /// The step that decided.
 std::string reason_in_words(const Diagnosis& d) {
   const Finding& finding = d.finding;
@@ -140,6 +148,11 @@ std::string reason_in_words(const Diagnosis& d) {
           "explain them. This law comes nearest (chance of its misfit {:.3g}); its numbers are means, about which "
           "materials and conditions differ",
           factors_in_words(d.factors), finding.value);
+    case Reason::carried_part:
+      return fmt::format(
+          "it explains the features that carry it ({}). Elsewhere the residuals stay larger than noise, most in {} "
+          "({:.1f} standard deviations): something else is wrong there, which this name does not explain",
+          features_in_words(finding.carriers), finding.along, finding.value);
     case Reason::nothing_visible:
       return "nothing contradicts the base model, but none of the effects that act on these tests would have been "
              "visible at its usual size";
@@ -399,11 +412,16 @@ std::string in_words(const RowsOf& rows) {
   return rows.material.empty() ? "coupons" : rows.material + " coupons";
 }
 
-std::string left_out_in_words(const IncludedSpecimens& included) {
-  if (included.fractures_left_out == 0) return "";
+std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens) {
+  const auto count = std::ranges::count_if(specimens, [](const measurement::SpecimenRecord& specimen) {
+    return specimen.valid && specimen.test == tester::TestKind::toughness && specimen.design.mixture() != nullptr;
+  });
+  if (count == 0) return "";
   return fmt::format(
-      " {} toughness specimens were left out, and with them effects on fracture alone (--fracture includes both).",
-      included.fractures_left_out);
+      " {} notched specimens of homogeneous material were left out: the moduli of fracture tests are effective ones, "
+      "no "
+      "constants of the bulk.",
+      count);
 }
 
 std::string in_words(const Separated& separated) {

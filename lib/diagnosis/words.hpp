@@ -7,7 +7,6 @@
 
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/included_specimens.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/test_choice.hpp"
 
@@ -26,8 +25,8 @@ std::string in_words(const CommonGround& ground);
 /// "soft coupons"; empty: no rows.
 std::string in_words(const RowsOf& rows);
 
-/// A sentence with a space in front on specimens that are left out; empty where none are.
-std::string left_out_in_words(const IncludedSpecimens& included);
+/// A sentence with a space in front on valid specimens that no row is made of (observe()); empty where there are none.
+std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Why a test is proposed: it separates two models, given by their effects; or it tells a material's own E.
 struct Separated {

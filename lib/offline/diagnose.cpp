@@ -1,7 +1,6 @@
 #include "offline/diagnose.hpp"
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/included_specimens.hpp"
 #include "diagnosis/json.hpp"
 #include "diagnosis/words.hpp"
 #include "offline/json_parts.hpp"
@@ -10,10 +9,10 @@
 namespace nacre::offline {
 namespace {
 
-diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
+diagnosis::Diagnosis diagnosis_of(const std::vector<measurement::SpecimenRecord>& specimens,
                                   const diagnosis::DiagnosisSettings& settings) {
   try {
-    return diagnosis::diagnose(part.specimens, settings);
+    return diagnosis::diagnose(specimens, settings);
   } catch (const diagnosis::NothingMeasured& problem) {
     return diagnosis::insufficient(problem.what());
   }
@@ -21,10 +20,8 @@ diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
 
 }  // namespace
 
-DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, bool fracture,
-                          const diagnosis::DiagnosisSettings& settings) {
-  const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, fracture);
-  DiagnosedSet diagnosed{diagnosis_of(part, settings), {}};
+DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosis::DiagnosisSettings& settings) {
+  DiagnosedSet diagnosed{diagnosis_of(set.specimens, settings), {}};
   diagnosis::Diagnosis& diagnosis = diagnosed.diagnosis;
   diagnosis.data = diagnosis::summary_of_data(set.specimens, settings.procedure.noise);
   if (diagnosis.verdict == diagnosis::Verdict::insufficient) diagnosis.summary += trends_in_words(diagnosis.data);
@@ -32,7 +29,7 @@ DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, bool fracture,
   if (diagnosis.base_fit.modulus) expected.of_layouts.modulus = *diagnosis.base_fit.modulus;
   if (diagnosis.base_fit.coupon) expected.of_homogeneous.modulus = *diagnosis.base_fit.coupon;
   SpecimenUnitDoubts doubts = specimen_unit_doubts(set.specimens, expected, settings.fidelity);
-  diagnosis.summary += left_out_in_words(part) + doubts.caution;
+  diagnosis.summary += diagnosis::left_out_in_words(set.specimens) + doubts.caution;
   diagnosed.unit_doubts = std::move(doubts.first);
   return diagnosed;
 }

@@ -16,11 +16,9 @@ struct DiagnosedSet {
   std::vector<std::string> unit_doubts;  ///< a sentence on each of the first few
 };
 
-/// Diagnoses the specimens of a set, fracture tests where `fracture` asks for them (included_specimens.hpp); the
-/// summary tells what was left out, which units are in doubt, and where too little was measured what the data show by
-/// themselves.
-DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, bool fracture,
-                          const diagnosis::DiagnosisSettings& settings);
+/// Diagnoses the specimens of a set; the summary tells which units are in doubt, and where too little was measured what
+/// the data show by themselves.
+DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosis::DiagnosisSettings& settings);
 
 /// The JSON document of `nacre diagnose --json`.
 nlohmann::ordered_json diagnosis_json(const diagnosis::Diagnosis& diagnosis,

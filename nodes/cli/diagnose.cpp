@@ -10,7 +10,6 @@
 #include "base/output_path.hpp"
 #include "command.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/included_specimens.hpp"
 #include "diagnosis/json.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
@@ -31,14 +30,14 @@ namespace {
 struct DiagnoseOptions {
   std::string set;
   std::string parameters, ranges;
-  std::string fidelity = "full";
+  std::string fidelity = "preview";
   std::string table, measured, predicted;
   std::string discretisation_floor;
   std::string store, report;
   int search_budget = 40;
   std::uint64_t seed = 1;
   int bootstraps = 2000;
-  bool json = false, plan = false, fracture = false;
+  bool json = false, plan = false;
 };
 
 /// Orientation, and what is unlike the usual test: " at 90 degrees, at 0.00617 /s, 1.6 mm thick".
@@ -167,10 +166,8 @@ int plan(const DiagnoseOptions& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("plan");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, options.fracture);
-  const diagnosis::Plan plan = diagnosis::plan_diagnosis(part.specimens, settings);
+  const diagnosis::Plan plan = diagnosis::plan_diagnosis(set.specimens, settings);
   progress.end();
-  if (const std::string left_out = left_out_in_words(part); !left_out.empty()) remark(left_out.substr(1));
   if (options.json) {
     auto document = nlohmann::ordered_json::parse(to_json(plan));
     document["rejected"] = rejected_json(set.rejected);
@@ -207,7 +204,7 @@ int diagnose(const DiagnoseOptions& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const auto [d, unit_doubts] = offline::diagnose_set(set, options.fracture, settings);
+  const auto [d, unit_doubts] = offline::diagnose_set(set, settings);
   progress.end();
   warn_all(unit_doubts);
   if (!options.report.empty())
@@ -234,8 +231,6 @@ void add_diagnose(CLI::App& app, Action& action) {
   add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--discretisation-floor", options->discretisation_floor,
                      "File of discretisation errors; default: data/discretisation_floor.toml");
-  command.add_flag("--fracture", options->fracture,
-                   "Include toughness specimens with their curves (not yet proven by blind trials)");
   command.add_flag("--plan", options->plan,
                    "Before anything is measured: which effects these specimens could tell apart, and which few more "
                    "specimens would help");
