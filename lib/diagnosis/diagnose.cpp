@@ -116,6 +116,16 @@ std::vector<FittedModel> models_to_separate(const Evidence& evidence, const Deci
   return models;
 }
 
+/// A model fitted to all data at the size of its effect that a part of them told.
+FittedModel with_size_of(const Evidence& evidence, const FittedModel& whole, const FittedModel& part) {
+  Eigen::VectorXd u = whole.u;
+  const Eigen::Index sizes = u.size() - whole.base_count;
+  u.tail(sizes) = part.u.tail(sizes);
+  std::vector<int> held(sizes);
+  std::iota(held.begin(), held.end(), whole.base_count);
+  return fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit, whole.effects, u, held);
+}
+
 FittedConstants constants_of(const Evidence& evidence, const FittedModel& fit) {
   const Basis& basis = evidence.model.basis();
   FittedConstants constants;
@@ -203,8 +213,9 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   FittedModel extended = decided;
   if (decision.verdict == Verdict::named) {
     report(0.92, "sizes of the named effects");
-    NamedModel named = measure_size(extending, decided);
-    extended = std::move(named.fit);
+    NamedModel named =
+        decision.part ? measure_size(*decision.part, *decision.part_fit) : measure_size(extending, decided);
+    extended = decision.part ? with_size_of(evidence, decided, named.fit) : std::move(named.fit);
     diagnosis.effects = std::move(named.effects);
   }
   diagnosis.extended_fit = constants_of(evidence, extended);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/carried_part.hpp"
 #include "diagnosis/condition_laws.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/factors.hpp"
@@ -111,6 +112,41 @@ Decision decided_among_effects(const Evidence& evidence, Decision decision) {
   return settled(evidence, std::move(decision), std::move(possible), Reason::one_effect);
 }
 
+/// The name of an effect of the measuring side that explains the part of the data which carries it.
+std::optional<Decision> decided_by(const CarriedPart& part, const Evidence& evidence, Decision decision) {
+  DiagnosisSettings settings = evidence.settings;
+  settings.progress = {};
+  Evidence own = gather_evidence(part.data, settings);
+  if (own.effects.empty() || !own.factors.empty()) return std::nullopt;
+  Decision of_part = decided_among_effects(own, {});
+  const std::vector<std::string> name = {part.effect};
+  if (of_part.verdict != Verdict::named || of_part.possible.front().effects != name) return std::nullopt;
+  const FittedModel& single = *std::ranges::find(evidence.singles, name, &FittedModel::effects);
+  const WorstElsewhere worst = worst_elsewhere(evidence.observations, part, single);
+  decision.finding = {
+      .reason = Reason::carried_part,
+      .nearest = name,
+      .value = worst.deviations,
+      .along = fmt::format("{} of the {} test", in_words(worst.rows.feature), tester::to_string(worst.rows.test))};
+  for (const RowClass& rows : part.classes) decision.finding.carriers.push_back(rows.feature);
+  decision.verdict = Verdict::named;
+  decision.partial.reset();
+  decision.p_outside = of_part.p_outside;
+  decision.gain = gain_of(evidence, single);
+  decision.possible = {single};
+  decision.part_fit = of_part.possible.front();
+  decision.part = std::make_shared<const Evidence>(std::move(own));
+  return decision;
+}
+
+/// An effect of the measuring side is named by what carries it whatever misfits elsewhere: by all features that do, or
+/// where some of these are spoilt too, by one. The decision as it is where there is none.
+Decision decided_by_a_part(const Evidence& evidence, Decision decision) {
+  for (const CarriedPart& part : carried_parts(evidence))
+    if (std::optional<Decision> named = decided_by(part, evidence, decision)) return *std::move(named);
+  return decision;
+}
+
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -188,6 +224,7 @@ Decision decide(const Evidence& evidence) {
   decision.contrasts = judged_contrasts(plain(evidence));
   decision.loudest_part = loudest_part(plain(evidence).base_draws, plain(evidence).base_statistics);
   decision = decided_among_effects(evidence, std::move(decision));
+  if (decision.finding.reason == Reason::residuals_stay) decision = decided_by_a_part(evidence, std::move(decision));
   if (!evidence.factors.empty())
     decision = with_condition_laws(evidence, decided_with_factors(evidence, std::move(decision)));
   if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;

@@ -26,6 +26,8 @@ struct Decision {
   std::vector<std::string> rival_laws;    ///< of a condition, each of which explains the data (condition_laws.hpp)
   std::shared_ptr<const Evidence> freed;  ///< with the free levels and exponents beside which the model explains the
                                           ///< data, where these are others than those that effects were judged beside
+  std::shared_ptr<const Evidence> part;   ///< of the rows that carry the named effect, where others misfit beside it
+  std::optional<FittedModel> part_fit;    ///< over these rows
   Finding finding;
 };
 
