@@ -8,7 +8,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-RowClass class_of(const DataRow& row) { return {row.test, row.feature, row.kind}; }
+RowClass class_of(const DataRow& row) { return {row.test, row.feature}; }
 
 /// A signature of usual size within the classes of rows, in their own noise.
 struct ClassSignal {

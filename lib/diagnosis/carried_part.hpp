@@ -9,11 +9,11 @@
 
 namespace nacre::diagnosis {
 
-/// Rows that are one feature of one test: means over groups, or one kind of history.
+/// Rows that are one feature of one test, its history included: what batches do off a steady change speaks against a
+/// drift.
 struct RowClass {
   tester::TestKind test = tester::TestKind::modulus;
   Feature feature = Feature::log_modulus;
-  RowKind kind = RowKind::mean;
   bool operator==(const RowClass&) const = default;
 };
 

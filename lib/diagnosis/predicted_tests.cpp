@@ -24,9 +24,33 @@ material::ParameterSet parameters_for(const PossibleTest& test, const Coordinate
   return test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
 }
 
+/// Means over specimens that every model breaks alike, of the features that all show: one crack would differ from model
+/// to model by chance.
+FeatureValues mean_fracture_features(const PossibleTest& test, const material::ParameterSet& set,
+                                     tester::Fidelity fidelity, const CurveReading& reading, int specimens) {
+  FeatureValues sum;
+  for (int k = 0; k < specimens; ++k) {
+    const auto result = tester::test_toughness(
+        {test.design, simulated_side(set), test.conditions, fidelity, tester::kFirstPredictionSpecimen + k});
+    if (!result) return {};
+    sysid::Prediction prediction;
+    prediction.toughness_pa = result->toughness_pa;
+    prediction.curve = tester::resampled(measurement::forward_part(result->curve), reading.fracture_points);
+    const FeatureValues own = shown_features(prediction, set.extensions, reading);
+    for (std::size_t f = 0; f < kFeatureCount; ++f) {
+      if (k > 0 && !sum[f]) continue;
+      if (own[f])
+        sum[f] = sum[f].value_or(0.0) + *own[f] / specimens;
+      else
+        sum[f].reset();
+    }
+  }
+  return sum;
+}
+
 /// Predictions of a test by a model, one value per feature that it shows.
 FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set, tester::Fidelity fidelity,
-                                 const CurveReading& reading) {
+                                 const CurveReading& reading, int specimens) {
   FeatureValues values;
   if (test.test == TestKind::modulus) {
     if (const auto result = tester::test_modulus({test.design, simulated_side(set), test.conditions, fidelity}))
@@ -35,11 +59,8 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
   } else if (test.test == TestKind::tensile) {
     const tester::Curve curve = coupon_curve(test, set, fidelity);
     if (!curve.empty()) values = tensile_features(curve, reading);
-  } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
-    sysid::Prediction prediction;
-    prediction.toughness_pa = result->toughness_pa;
-    prediction.curve = tester::resampled(measurement::forward_part(result->curve), reading.fracture_points);
-    values = shown_features(prediction, set.extensions, reading);
+  } else {
+    values = mean_fracture_features(test, set, fidelity, reading, specimens);
   }
   return values;
 }
@@ -47,13 +68,14 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
 /// By test and model.
 std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTest>& tests,
                                                     const std::vector<FittedModel>& models, const FeatureModel& model,
-                                                    tester::Fidelity fidelity, const CurveReading& reading) {
+                                                    tester::Fidelity fidelity, const CurveReading& reading,
+                                                    int specimens) {
   std::vector<std::vector<FeatureValues>> seen(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(tests.size() * models.size(), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),
                       m = static_cast<std::size_t>(job) % models.size();
     const CoordinateMap map = model.map(models[m].effects);
-    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, models[m].u), fidelity, reading);
+    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, models[m].u), fidelity, reading, specimens);
   });
   return seen;
 }
@@ -90,7 +112,8 @@ PredictedTests::PredictedTests(const Evidence& evidence, std::vector<FittedModel
                                const std::vector<PossibleTest>& tests, int replicates)
     : measured_(evidence.observations), models_(std::move(models)), whitener_(measured_.covariance()) {
   const tester::Fidelity fidelity = evidence.settings.fidelity;
-  const auto seen = predictions(tests, models_, evidence.model, fidelity, measured_.reading);
+  const auto seen = predictions(tests, models_, evidence.model, fidelity, measured_.reading,
+                                evidence.settings.procedure.tests.broken_specimens);
   added_.reading = measured_.reading;
   added_.constant_sd = measured_.constant_sd;
   same_errors_ = evidence.settings.procedure.tests.same_errors;

@@ -171,6 +171,7 @@ struct TestRules {
   double least_errors = 1.0;      ///< below which a test separates nothing
   double least_fall = 1e-6;       ///< of a chance of confusion, below which no further test is bought for it
   double same_errors = 0.5;       ///< between two predicted changes: the test is a further replicate
+  int broken_specimens = 4;       ///< behind the prediction of a fracture test
   int bundle = 3;                 ///< twins that a plan adds together
   double worth_telling = 1.5;     ///< factor by which an addition lowers the smallest size told apart
   std::array<double, 9> planned_sizes{0.03, 0.05, 0.1,  0.15, 0.2,

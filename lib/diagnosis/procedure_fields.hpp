@@ -141,6 +141,7 @@ constexpr void TestRules::fields(auto& field, auto& m) {
   field("least_errors", m.least_errors);
   field("least_fall", m.least_fall);
   field("same_errors", m.same_errors);
+  field("broken_specimens", m.broken_specimens);
   field("bundle", m.bundle);
   field("worth_telling", m.worth_telling);
   field("planned_sizes", m.planned_sizes);

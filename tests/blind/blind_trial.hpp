@@ -101,9 +101,11 @@ inline OpenedTrial run_trial(
       if (experiment.conditions.strain_rate_per_s != tester::TestConditions{}.strain_rate_per_s)
         name += "-at-" + std::to_string(experiment.conditions.strain_rate_per_s);
       if (experiment.temperature_c) name += "-" + std::to_string(*experiment.temperature_c) + "C";
-      records.push_back(
-          laboratory::record_specimen(trial.truth, experiment, response,
-                                      {name, "batch " + std::to_string(1 + batch_of(experiment, i)), ++print_order}));
+      records.push_back(laboratory::record_specimen(trial.truth, experiment, response,
+                                                    {.specimen = name,
+                                                     .batch = "batch " + std::to_string(1 + batch_of(experiment, i)),
+                                                     .print_order = ++print_order,
+                                                     .number = i + 1}));
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);

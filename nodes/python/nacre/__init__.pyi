@@ -98,7 +98,6 @@ def diagnose(
     params: Parameters = ...,
     ranges: Optional[Path] = ...,
     fidelity: str = ...,
-    fracture: bool = ...,
     search: int = ...,
     bootstraps: int = ...,
     discretisation_floor: Optional[Path] = ...,
