@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/counted.hpp"
 #include "diagnosis/factors.hpp"
 #include "diagnosis/gain_words.hpp"
 #include "material/effect_words.hpp"
@@ -418,10 +419,9 @@ std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& sp
   });
   if (count == 0) return "";
   return fmt::format(
-      " {} notched specimens of homogeneous material were left out: the moduli of fracture tests are effective ones, "
-      "no "
-      "constants of the bulk.",
-      count);
+      " Left out: {} of homogeneous material (the moduli of fracture tests are effective ones, no constants of the "
+      "bulk).",
+      counted(count, "notched specimen"));
 }
 
 std::string in_words(const Separated& separated) {

@@ -34,6 +34,13 @@ DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosi
   return diagnosed;
 }
 
+measurement::MeasurementSet without_fractures(measurement::MeasurementSet set) {
+  std::erase_if(set.specimens, [](const measurement::SpecimenRecord& specimen) {
+    return specimen.test == tester::TestKind::toughness;
+  });
+  return set;
+}
+
 nlohmann::ordered_json diagnosis_json(const diagnosis::Diagnosis& diagnosis,
                                       const std::vector<measurement::RejectedRow>& rejected) {
   auto document = nlohmann::ordered_json::parse(diagnosis::to_json(diagnosis));

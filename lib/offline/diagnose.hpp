@@ -20,6 +20,9 @@ struct DiagnosedSet {
 /// the data show by themselves.
 DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosis::DiagnosisSettings& settings);
 
+/// The set without its fracture tests, which take most of the time of a diagnosis: each is simulated some eighty times.
+measurement::MeasurementSet without_fractures(measurement::MeasurementSet set);
+
 /// The JSON document of `nacre diagnose --json`.
 nlohmann::ordered_json diagnosis_json(const diagnosis::Diagnosis& diagnosis,
                                       const std::vector<measurement::RejectedRow>& rejected);

@@ -37,7 +37,7 @@ struct DiagnoseOptions {
   int search_budget = 40;
   std::uint64_t seed = 1;
   int bootstraps = 2000;
-  bool json = false, plan = false;
+  bool json = false, plan = false, no_fracture = false;
 };
 
 /// Orientation, and what is unlike the usual test: " at 90 degrees, at 0.00617 /s, 1.6 mm thick".
@@ -122,6 +122,10 @@ diagnosis::DiagnosisSettings settings_from(const DiagnoseOptions& options) {
   return settings;
 }
 
+measurement::MeasurementSet of_tests_wanted(measurement::MeasurementSet set, const DiagnoseOptions& options) {
+  return options.no_fracture ? offline::without_fractures(std::move(set)) : set;
+}
+
 /// The status of an effect in a plan.
 std::string_view plan_in_words(diagnosis::PlanStatus status) {
   switch (status) {
@@ -161,7 +165,7 @@ void print_plan(const diagnosis::Plan& plan) {
 int plan(const DiagnoseOptions& options) {
   if (options.set.empty())
     throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
-  const measurement::MeasurementSet set = measurement::read_planned_set(options.set);
+  const measurement::MeasurementSet set = of_tests_wanted(measurement::read_planned_set(options.set), options);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("plan");
@@ -199,7 +203,7 @@ int diagnose(const DiagnoseOptions& options) {
   if (!options.table.empty()) return diagnose_table(options);
   if (options.set.empty())
     throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
-  const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
+  const measurement::MeasurementSet set = of_tests_wanted(measurement::read_plausible_set(options.set), options);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
@@ -231,6 +235,8 @@ void add_diagnose(CLI::App& app, Action& action) {
   add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--discretisation-floor", options->discretisation_floor,
                      "File of discretisation errors; default: data/discretisation_floor.toml");
+  command.add_flag("--no-fracture", options->no_fracture,
+                   "Leave fracture tests out: a minute in place of an hour, and no word of effects on fracture alone");
   command.add_flag("--plan", options->plan,
                    "Before anything is measured: which effects these specimens could tell apart, and which few more "
                    "specimens would help");

@@ -13,11 +13,13 @@ namespace {
 namespace py = pybind11;
 
 py::object diagnose(const py::object& folder, const py::object& params, const py::object& ranges,
-                    const std::string& fidelity, int search, int bootstraps, const py::object& discretisation_floor,
-                    const py::object& store, std::int64_t seed, const py::object& progress) {
+                    const std::string& fidelity, bool fracture, int search, int bootstraps,
+                    const py::object& discretisation_floor, const py::object& store, std::int64_t seed,
+                    const py::object& progress) {
   require_range("search", search, 0, 1000);
   require_range("bootstraps", bootstraps, 1000, 1'000'000);
-  const measurement::MeasurementSet set = set_from(folder);
+  measurement::MeasurementSet set = set_from(folder);
+  if (!fracture) set = offline::without_fractures(std::move(set));
   diagnosis::DiagnosisSettings settings;
   material::StartingModel model = starting_model_from(params, ranges);
   settings.ranges = model.ranges;
@@ -46,6 +48,7 @@ set: path of a folder with measurements.csv (docs/FORMATS.md).
 params: initial guess of the base model, as of simulate(). ranges: file with the ranges of the parameters; None: the
     thesis'.
 fidelity, progress: as of simulate().
+fracture: whether fracture tests take part: an hour in place of a minute.
 search: most parameter sets tried for the base model of fracture tests, 0 to 1000; 0: begin at params.
 bootstraps: samples behind the thresholds, 1000 to 1,000,000.
 discretisation_floor: file of discretisation errors; None: nacre's.
@@ -60,9 +63,9 @@ Warns of rows that cannot be used. Raises InputError for bad input, KeyboardInte
 void add_diagnose(py::module_& module) {
   const py::none none;
   module.def("diagnose", diagnose, py::arg("set"), py::kw_only(), py::arg("params") = none, py::arg("ranges") = none,
-             py::arg("fidelity") = "preview", py::arg("search") = 40, py::arg("bootstraps") = 2000,
-             py::arg("discretisation_floor") = none, py::arg("store") = none, py::arg("seed") = 1,
-             py::arg("progress") = none, kDiagnose);
+             py::arg("fidelity") = "preview", py::arg("fracture") = true, py::arg("search") = 40,
+             py::arg("bootstraps") = 2000, py::arg("discretisation_floor") = none, py::arg("store") = none,
+             py::arg("seed") = 1, py::arg("progress") = none, kDiagnose);
 }
 
 }  // namespace nacre::python

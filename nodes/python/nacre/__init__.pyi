@@ -98,6 +98,7 @@ def diagnose(
     params: Parameters = ...,
     ranges: Optional[Path] = ...,
     fidelity: str = ...,
+    fracture: bool = ...,
     search: int = ...,
     bootstraps: int = ...,
     discretisation_floor: Optional[Path] = ...,
