@@ -35,10 +35,10 @@ TrialDiagnosis play(const BlindTrial& trial, const Options& options) {
   const fs::path folder = fs::path(options.work) / trial.name;
   if (!fs::exists(folder / "diagnosis.json")) {
     generate(trial, options.trials, folder);
-    diagnose(trial, options.trials, folder);
+    diagnose(options.trials, folder);
     if (trial.kind == "resolved") {
       print_what_was_ordered(trial, options.trials, folder);
-      diagnose(trial, options.trials, folder);
+      diagnose(options.trials, folder);
     }
   }
   return open_trial(trial, options.commit, folder);

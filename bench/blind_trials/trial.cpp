@@ -429,7 +429,7 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
   write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);
 }
 
-void diagnose(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
+void diagnose(const TrialOptions& options, const fs::path& folder) {
   const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
       fmt::format("'{}' diagnose '{}' --fidelity {} --store '{}' --json > '{}.part' 2> '{}'", options.program,

@@ -67,6 +67,6 @@ void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options
 
 /// `nacre diagnose FOLDER/set` as a program of its own, result in FOLDER/diagnosis.json; fracture simulations are kept
 /// in FOLDER/store. Throws InputError when it fails.
-void diagnose(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
+void diagnose(const TrialOptions& options, const std::filesystem::path& folder);
 
 }  // namespace nacre::blind_trials

@@ -10,10 +10,11 @@ namespace {
 
 RowClass class_of(const DataRow& row) { return {row.test, row.feature}; }
 
-/// A signature of usual size within the classes of rows, in their own noise.
+/// The squares of a change over the rows of a class, in their own noise.
 struct ClassSignal {
   RowClass rows;
   double squares = 0.0;
+  int count = 0;  ///< rows
 };
 
 std::vector<ClassSignal> signals_by_class(const Observations& observations, const Eigen::VectorXd& change) {
@@ -22,7 +23,8 @@ std::vector<ClassSignal> signals_by_class(const Observations& observations, cons
   for (int i = 0; i < observations.size(); ++i) {
     const RowClass own = class_of(observations.rows[i]);
     auto known = std::ranges::find(signals, own, &ClassSignal::rows);
-    if (known == signals.end()) known = signals.insert(known, {own, 0.0});
+    if (known == signals.end()) known = signals.insert(known, {own});
+    ++known->count;
     known->squares += std::pow(change[i], 2) / variances[i];
   }
   return signals;
@@ -122,13 +124,10 @@ std::vector<CarriedPart> carried_parts(const Evidence& evidence) {
 
 WorstElsewhere worst_elsewhere(const Observations& observations, const CarriedPart& part, const FittedModel& fit) {
   const Eigen::VectorXd residuals = observations.values - fit.predicted;
-  std::vector<ClassSignal> sums = signals_by_class(observations, residuals);
   WorstElsewhere worst;
-  for (const ClassSignal& each : sums) {
+  for (const ClassSignal& each : signals_by_class(observations, residuals)) {
     if (std::ranges::find(part.classes, each.rows) != part.classes.end()) continue;
-    const auto count =
-        std::ranges::count_if(observations.rows, [&](const DataRow& row) { return class_of(row) == each.rows; });
-    const double deviations = std::sqrt(each.squares / static_cast<double>(count));
+    const double deviations = std::sqrt(each.squares / each.count);
     if (deviations > worst.deviations) worst = {each.rows, deviations};
   }
   return worst;

@@ -1,6 +1,6 @@
 #pragma once
 // The part of the data that carries an effect of the measuring side: a slack shows in toes, and what simulations get
-// wrong behind the peak says nothing against it (docs/METHODS.md, "Diagnosis", step 8).
+// wrong behind the peak says nothing against it (docs/METHODS.md, "Diagnosis", step 7).
 
 #include <string>
 #include <vector>

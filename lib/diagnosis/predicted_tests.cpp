@@ -7,6 +7,7 @@
 #include "diagnosis/shared_discretisation.hpp"
 #include "measurement/reduction.hpp"
 #include "tester/modulus.hpp"
+#include "tester/strength_field.hpp"
 #include "tester/toughness.hpp"
 
 namespace nacre::diagnosis {
@@ -28,6 +29,7 @@ material::ParameterSet parameters_for(const PossibleTest& test, const Coordinate
 /// to model by chance.
 FeatureValues mean_fracture_features(const PossibleTest& test, const material::ParameterSet& set,
                                      tester::Fidelity fidelity, const CurveReading& reading, int specimens) {
+  if (!tester::specimens_differ(set)) specimens = 1;
   FeatureValues sum;
   for (int k = 0; k < specimens; ++k) {
     const auto result = tester::test_toughness(

@@ -102,7 +102,7 @@ std::string factors_in_words(const std::vector<std::vector<std::string>>& sets) 
   return fmt::format("{}", fmt::join(words, ", or of "));
 }
 
-/// "strain of the toe and stress at the peak", each once
+/// "strain of the toe, stress at the peak": each once, whatever the tests
 std::string features_in_words(const std::vector<Feature>& features) {
   std::vector<std::string_view> words;
   for (const Feature feature : features)

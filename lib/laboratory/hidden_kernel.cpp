@@ -230,9 +230,9 @@ NACRE_ALWAYS_INLINE int advance(const ElementRow& row, const ElementStep& step, 
 }
 
 // One function per part and instruction set: what a specimen does not have is not computed.
-constexpr HiddenParts kAll{}, kFlowing{true, false, false, false, false}, kFilling{false, true, false, false, false},
-    kShrinking{false, false, true, false, false}, kRelaxing{false, false, false, true, false},
-    kSparing{false, false, false, false, true};
+constexpr HiddenParts kFlowing{.flows = true}, kFilling{.fills = true}, kShrinking{.shrinks = true},
+    kRelaxing{.relaxes = true}, kSparing{.spares_crush = true};
+constexpr HiddenParts kAll{.flows = true, .fills = true, .shrinks = true, .relaxes = true, .spares_crush = true};
 
 NACRE_VECTOR_CLONES
 int advance_flowing(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden, const HiddenStep& law) {

@@ -28,11 +28,11 @@ struct HiddenStep {
 
 /// The parts of the hidden law that act, beside softening.
 struct HiddenParts {
-  bool flows = true;         ///< flow_limit
-  bool fills = true;         ///< inverse_limit
-  bool shrinks = true;       ///< eigenstrain
-  bool relaxes = true;       ///< overstress
-  bool spares_crush = true;  ///< tension_only
+  bool flows = false;         ///< flow_limit
+  bool fills = false;         ///< inverse_limit
+  bool shrinks = false;       ///< eigenstrain
+  bool relaxes = false;       ///< overstress
+  bool spares_crush = false;  ///< tension_only
   bool operator==(const HiddenParts&) const = default;
 };
 
