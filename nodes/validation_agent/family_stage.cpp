@@ -123,7 +123,7 @@ std::string FamilyStage::label(const char* what) const {
   return fmt::format("families/{}/{}", families_.size() - 1, what);
 }
 
-void FamilyStage::ask(const FarmBatch& batch, runtime::Outputs& outputs) {
+void FamilyStage::ask(const runtime::FarmBatch& batch, runtime::Outputs& outputs) {
   for (const wire::SimulateRequest& request : farm_.ask(batch))
     outputs.messages.push_back({"SIMULATE", wire::write(request)});
 }
@@ -167,7 +167,8 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
 
 void FamilyStage::calibrate_on(runtime::Outputs& outputs) {
   if (!fitting_->calibration().finished()) {
-    return ask({.label = label("c"),
+    return ask({.requester = "validation_agent",
+                .label = label("c"),
                 .wanted = fitting_->calibration().wanted(),
                 .measured = fitting_->measured(),
                 .fidelity = scenario_.fidelity},
@@ -192,7 +193,8 @@ void FamilyStage::sample(runtime::Outputs& outputs) {
 void FamilyStage::simulate_variants(runtime::Outputs& outputs) {
   asked_ = unmeasured(variants_);
   step_ = Step::simulating;
-  ask({.label = label("v"),
+  ask({.requester = "validation_agent",
+       .label = label("v"),
        .wanted = {evaluation_of_all("0", families_.back().parameters, asked_.size())},
        .measured = asked_,
        .fidelity = scenario_.fidelity,
@@ -220,7 +222,8 @@ void FamilyStage::choose(runtime::Outputs& outputs) {
   for (const game::FamilyDesign& design : family.designs) designs.push_back(design.pattern);
   asked_ = unmeasured(designs);
   step_ = Step::predicting;
-  ask({.label = label("p"),
+  ask({.requester = "validation_agent",
+       .label = label("p"),
        .wanted = {evaluation_of_all("global", beginning_.model, asked_.size()),
                   evaluation_of_all("family", family.parameters, asked_.size())},
        .measured = asked_,

@@ -9,8 +9,8 @@
 
 #include "families/grouping.hpp"
 #include "game/scenario.hpp"
+#include "runtime/farm_requests.hpp"
 #include "runtime/node_core.hpp"
-#include "validation_agent/farm_requests.hpp"
 #include "validation_agent/fitting.hpp"
 #include "wire/convert.hpp"
 
@@ -59,7 +59,7 @@ class FamilyStage {
   void simulate_variants(runtime::Outputs& outputs);
   void choose(runtime::Outputs& outputs);
   void finish_family(runtime::Outputs& outputs);
-  void ask(const FarmBatch& batch, runtime::Outputs& outputs);
+  void ask(const runtime::FarmBatch& batch, runtime::Outputs& outputs);
   std::string label(const char* what) const;
   game::DesignValues measured_values(const pattern::Pattern& pattern) const;
 
@@ -76,7 +76,7 @@ class FamilyStage {
   std::vector<pattern::Pattern> variants_;
   std::vector<explore::Evaluated> gamut_;
   std::vector<measurement::Replicates> asked_;
-  FarmRequests farm_;
+  runtime::FarmRequests farm_;
 };
 
 }  // namespace nacre::validation_agent

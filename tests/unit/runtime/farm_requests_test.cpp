@@ -1,12 +1,12 @@
-// What the validation agent requests from the farm, with responses made up by the test.
+// What a node requests from the farm, with responses made up by the test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "material/parameters.hpp"
-#include "validation_agent/farm_requests.hpp"
+#include "runtime/farm_requests.hpp"
 
-namespace nacre::validation_agent {
+namespace nacre::runtime {
 namespace {
 
 using testing::SizeIs;
@@ -14,7 +14,11 @@ using testing::StartsWith;
 
 /// The third evaluation of a calibration of round 1: the toughness of two designs.
 FarmBatch third_evaluation(double w_if_j_per_m3, std::uint64_t second_design = 6) {
-  FarmBatch batch{.label = "r1/c", .wanted = {}, .measured = {}, .fidelity = tester::Fidelity::tiny};
+  FarmBatch batch{.requester = "validation_agent",
+                  .label = "r1/c",
+                  .wanted = {},
+                  .measured = {},
+                  .fidelity = tester::Fidelity::tiny};
   for (const std::uint64_t bits : {std::uint64_t{5}, second_design}) {
     batch.measured.emplace_back().design = pattern::Pattern(bits);
     batch.measured.back().toughness_count = 1;
@@ -66,4 +70,4 @@ TEST(FarmRequests, TheSameCourseAsksTheSameAgain) {
 }
 
 }  // namespace
-}  // namespace nacre::validation_agent
+}  // namespace nacre::runtime

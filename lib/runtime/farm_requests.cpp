@@ -1,4 +1,4 @@
-#include "validation_agent/farm_requests.hpp"
+#include "runtime/farm_requests.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "game/model.hpp"
 
-namespace nacre::validation_agent {
+namespace nacre::runtime {
 namespace {
 
 using ConditionsKey = std::tuple<double, double, double>;
@@ -46,7 +46,7 @@ std::vector<wire::SimulateRequest> FarmRequests::ask(const FarmBatch& batch) {
     for (const auto& [conditions, items] : by_conditions) {
       for (std::size_t first = 0; first < items.size(); first += wire::kMaximumDesigns) {
         wire::SimulateRequest request;
-        request.request_id = fmt::format("validation_agent/{}/{}/{}", batch.label, each.id, part++);
+        request.request_id = fmt::format("{}/{}/{}/{}", batch.requester, batch.label, each.id, part++);
         request.modulus = each.modulus;
         request.toughness = each.toughness;
         request.fidelity = batch.fidelity;
@@ -83,4 +83,4 @@ bool FarmRequests::take(wire::SimulateResult part) {
   return open_.empty();
 }
 
-}  // namespace nacre::validation_agent
+}  // namespace nacre::runtime

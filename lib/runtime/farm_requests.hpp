@@ -10,11 +10,12 @@
 #include "sysid/wanted_evaluation.hpp"
 #include "wire/convert.hpp"
 
-namespace nacre::validation_agent {
+namespace nacre::runtime {
 
 /// Evaluations that are requested at once.
 struct FarmBatch {
-  std::string label;  ///< of request ids, before the evaluation's own: batches that share it hold other evaluations
+  std::string requester;  ///< name of the node
+  std::string label;      ///< of request ids, before the evaluation's own: batches that share it hold other evaluations
   std::vector<sysid::WantedEvaluation> wanted;
   std::vector<measurement::Replicates> measured;  ///< the designs that `wanted` means, with their test conditions
   tester::Fidelity fidelity = tester::Fidelity::full;
@@ -26,7 +27,7 @@ struct FarmBatch {
 class FarmRequests {
  public:
   /// SIMULATE requests for the batch: items of one evaluation that share test conditions go together, at most 64 a
-  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART#HASH` (wire::with_content_id).
+  /// request. Request ids are `REQUESTER/LABEL/EVALUATION/PART#HASH` (wire::with_content_id).
   std::vector<wire::SimulateRequest> ask(const FarmBatch& batch);
 
   /// Takes a SIMULATED. Returns whether the batch is complete with it.
@@ -47,4 +48,4 @@ class FarmRequests {
   std::vector<std::vector<sysid::Prediction>> predictions_;
 };
 
-}  // namespace nacre::validation_agent
+}  // namespace nacre::runtime
