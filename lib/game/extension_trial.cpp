@@ -86,6 +86,16 @@ double least_without_one(std::span<const OutOfSampleError> errors, double least)
   return smallest;
 }
 
+bool is_gain(std::span<const OutOfSampleError> errors, double least) {
+  const ExtensionTrialStanding standing = standing_of(errors, least);
+  return standing.designs >= kFewestDesigns && standing.for_extended >= kDecisiveBayesFactor &&
+         least_without_one(errors, least) >= kStraddling;
+}
+
+bool is_loss(std::span<const OutOfSampleError> errors, double least) {
+  return standing_of(errors, least).for_adopted >= kDecisiveBayesFactor;
+}
+
 }  // namespace
 
 void ExtensionTrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
@@ -115,11 +125,8 @@ ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, dou
 }
 
 bool gain_is_established(const ExtensionTrialErrors& errors) {
-  const ExtensionTrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
-                               toughness = standing_of(errors.toughness, kLeastToughnessError);
-  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kDecisiveBayesFactor &&
-         toughness.for_adopted < kDecisiveBayesFactor &&
-         least_without_one(errors.modulus, kLeastModulusError) >= kStraddling;
+  return (is_gain(errors.modulus, kLeastModulusError) && !is_loss(errors.toughness, kLeastToughnessError)) ||
+         (is_gain(errors.toughness, kLeastToughnessError) && !is_loss(errors.modulus, kLeastModulusError));
 }
 
 }  // namespace nacre::game

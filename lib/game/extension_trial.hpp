@@ -49,8 +49,9 @@ ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, dou
 /// Least scatter of log E and of log T: measurement scatter and discretisation error.
 inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 
-/// A Bayes factor of 20 for better predictions of E, which does not rest on a single design against all others, and not
-/// the same factor for worse predictions of T. At least three designs. Rate of false adoptions: docs/decisions/0015.
+/// A Bayes factor of 20 for better predictions of E or of T, which does not rest on a single design against all others,
+/// and not the same factor for worse predictions of the other. At least three designs. Rate of false adoptions:
+/// docs/decisions/0015.
 bool gain_is_established(const ExtensionTrialErrors& errors);
 
 }  // namespace nacre::game

@@ -68,30 +68,38 @@ void ValidationCore::weigh(const wire::Diagnosis& diagnosis) {
   begin_calibration(*extended);
 }
 
+namespace {
+
+std::string in_words(const game::ExtensionTrialErrors& errors) {
+  const auto standing = [](const char* what, const std::vector<game::OutOfSampleError>& own, double least) {
+    const game::ExtensionTrialStanding s = game::standing_of(own, least);
+    return fmt::format("{} of {} with a mean error of {:.1f} % against {:.1f} % (Bayes factor 10^{:.1f})", what,
+                       counted(s.designs, "new design"), 100.0 * s.extended, 100.0 * s.adopted, s.for_extended);
+  };
+  return fmt::format("it predicted {}, {}", standing("E", errors.modulus, game::kLeastModulusError),
+                     standing("T", errors.toughness, game::kLeastToughnessError));
+}
+
+}  // namespace
+
 void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
   const bool adopted_before = model_holds(*diagnosis_);
-  const game::ExtensionTrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
   if (adopted_before || game::gain_is_established(trial_->errors)) {
-    take_over(result);
-    trial_.reset();
     say(LogLevel::info,
         adopted_before
             ? fmt::format("round {}: {} gets its effect size from the new diagnosis", round_, name)
-            : fmt::format("round {}: the model is extended by {}: it predicted E of {} with a mean error of {:.1f} % "
-                          "against {:.1f} % (Bayes factor 10^{:.1f})",
-                          round_, name, counted(moduli.designs, "new design"), 100.0 * moduli.extended,
-                          100.0 * moduli.adopted, moduli.for_extended));
+            : fmt::format("round {}: the model is extended by {}: {}", round_, name, in_words(trial_->errors)));
+    take_over(result);
+    trial_.reset();
   } else {
     trial_->model = result.parameters;
+    const bool is_new = trial_->errors.modulus.empty() && trial_->errors.toughness.empty();
     say(LogLevel::info,
-        moduli.designs == 0
-            ? fmt::format("round {}: {} is on trial: it must predict new designs better before it is adopted", round_,
-                          name)
-            : fmt::format("round {}: {} stays on trial: it predicted E of {} with a mean error of {:.1f} % against "
-                          "{:.1f} % (Bayes factor 10^{:.1f}, adopted from 10^1.3 on)",
-                          round_, name, counted(moduli.designs, "new design"), 100.0 * moduli.extended,
-                          100.0 * moduli.adopted, moduli.for_extended));
+        is_new ? fmt::format("round {}: {} is on trial: it must predict new designs better before it is adopted",
+                             round_, name)
+               : fmt::format("round {}: {} stays on trial: {}, adopted from 10^1.3 on", round_, name,
+                             in_words(trial_->errors)));
   }
   publish_model();
 }
