@@ -82,15 +82,11 @@ Data data_of_rows(const Evidence& evidence, const std::vector<Eigen::Index>& row
   const Basis basis =
       basis_for(part, all.model.basis().centre, evidence.settings.ranges, evidence.settings.procedure.constants);
   FeatureModel model(part, basis, evidence.settings.fidelity);
-  if (part.has(tester::TestKind::toughness)) {
-    std::vector<int> groups;
-    for (std::size_t g = 0; g < part.groups.size(); ++g)
-      if (part.groups[g].test == tester::TestKind::toughness) groups.push_back(static_cast<int>(g));
-    model = model.with_surface(std::make_shared<const FractureSurface>(part, groups, all.runs, basis.centre.toughness,
-                                                                       evidence.settings.procedure.emulator));
-  }
-  std::vector<std::string> effects = acting_effects(model, part, evidence.settings.procedure.fit);
-  return {std::move(part), nullptr, all.runs, std::move(model), std::move(effects)};
+  if (part.has(tester::TestKind::toughness))
+    model = model.with_surface(std::make_shared<const FractureSurface>(
+        part, fracture_groups(part).groups, all.runs, basis.centre.toughness, evidence.settings.procedure.emulator));
+  std::vector<std::string> effects = acting_effects(model, part, evidence.settings);
+  return {std::move(part), nullptr, {}, all.runs, std::move(model), std::move(effects)};
 }
 
 CarriedPart part_of(const Evidence& evidence, const std::string& effect, std::vector<RowClass> classes) {

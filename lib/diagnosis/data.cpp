@@ -4,63 +4,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/random.hpp"
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/planned_runs.hpp"
 #include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::diagnosis {
 namespace {
-
-void move_eta(material::ToughnessParameters& parameters, double spread, double sign,
-              const std::vector<double>& normal) {
-  material::ToughnessVector eta = to_vector(parameters);
-  for (std::size_t k = 0; k < sysid::kSearchedEta.size(); ++k)
-    eta[sysid::kSearchedEta[k]] *= std::exp(sign * spread * normal[k]);
-  parameters = material::toughness_from_vector(eta);
-}
-
-std::vector<double> normals(RandomStream& random) {
-  std::vector<double> values(sysid::kSearchedEta.size());
-  for (double& value : values) value = random.normal();
-  return values;
-}
-
-/// The centre; pairs around it, of the base model, where no search has broken any; every effect of the material on
-/// fractures at several sizes.
-std::vector<material::ParameterSet> planned_runs(const Basis& basis, bool with_pairs, const EmulatorRules& rules,
-                                                 std::uint64_t seed) {
-  const material::ParameterSet& centre = basis.centre;
-  std::vector<material::ParameterSet> sets = {centre};
-  RandomStream random(seed, "diagnosis/runs");
-  for (int k = 0; k < (with_pairs ? rules.pairs : 0); ++k) {
-    const std::vector<double> normal = normals(random);
-    for (const double sign : {1.0, -1.0}) {
-      sets.push_back(centre);
-      move_eta(sets.back().toughness, rules.spread, sign, normal);
-    }
-  }
-  for (const material::Effect& effect : material::effect_library()) {
-    if (!effect.acts_on_toughness || effect.side != material::EffectSide::material) continue;
-    const std::vector<std::string> names = {std::string(effect.name)};
-    const CoordinateMap map(
-        Basis{.modulus = false, .toughness = true, .coupon = false, .centre = centre, .rules = basis.rules}, names);
-    const int own = map.base_count();
-    for (const double sign : {1.0, -1.0}) {
-      if (sign < 0.0 && map.lower(own) >= 0.0) continue;
-      for (const double size : rules.effect_sizes) {
-        Eigen::VectorXd u = map.coordinates(centre);
-        u[own] = std::clamp(sign * size, map.lower(own), map.upper(own));
-        for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
-        sets.push_back(map.parameters(u));
-        move_eta(sets.back().toughness, rules.jitter, 1.0, normals(random));
-      }
-    }
-  }
-  return sets;
-}
 
 /// The most probable eta where it is searched for, with what was simulated on the way; the given one otherwise.
 FractureSearch search_of(const FractureTests* fractures, const DiagnosisSettings& settings) {
@@ -114,7 +66,7 @@ Eigen::VectorXd fracture_change(const Observations& observations, const std::vec
 /// What the runs teach, and its error as variances of the rows.
 std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
                                                       const EmulatorRules& rules) {
-  return std::make_shared<const FractureSurface>(data.observations, data.fractures->groups(), data.runs,
+  return std::make_shared<const FractureSurface>(data.observations, data.fracture_groups, data.runs,
                                                  basis.centre.toughness, rules);
 }
 
@@ -145,7 +97,9 @@ double error_at(const FractureRun& run, const FractureSurface& surface, const Cu
 }  // namespace
 
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
-                                        const FitRules& rules) {
+                                        const DiagnosisSettings& settings) {
+  const FitRules& rules = settings.procedure.fit;
+  const bool lacks_simulations = settings.fractures && observations.has(tester::TestKind::toughness);
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
   std::vector<Eigen::Index> rows(observations.size());
@@ -155,6 +109,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   for (const material::Effect& effect : material::effect_library()) {
     if (only_layouts_tell && !is_identified_by_moduli(effect)) continue;
     if (is_other_constants(effect, observations)) continue;
+    if (lacks_simulations && std::ranges::count(settings.fractures->unaffordable, effect.name) > 0) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
     const CoordinateMap map = model.map(names);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
@@ -177,8 +132,9 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
       observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation, procedure);
   if (observations.rows.empty())
     throw NothingMeasured("no valid specimen has a modulus, a toughness or a curve that a diagnosis reads");
+  const bool has_fractures = observations.has(tester::TestKind::toughness);
   std::shared_ptr<const FractureTests> fractures;
-  if (observations.has(tester::TestKind::toughness))
+  if (has_fractures && !settings.fractures)
     fractures =
         std::make_shared<const FractureTests>(observations, settings.fidelity, settings.store, settings.threads);
   FractureSearch search = search_of(fractures.get(), settings);
@@ -186,26 +142,37 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   centre.extensions.clear();
   centre.toughness = search.best;
   const Basis basis = basis_for(observations, centre, settings.ranges, procedure.constants);
-  Data data{observations, fractures, {}, FeatureModel(observations, basis, settings.fidelity), {}};
+  Data data{observations,
+            fractures,
+            fracture_groups(observations).groups,
+            {},
+            FeatureModel(observations, basis, settings.fidelity),
+            {}};
   if (fractures) {
     const std::vector<RefinedLayout> refined = refined_around(*fractures, centre, settings);
     data.observations.fracture_discretisation =
         at_own_constants(settings.fracture_discretisation, refined, procedure.emulator);
     data.observations.fracture_change = fracture_change(data.observations, refined);
     data.runs = runs_around(*fractures, std::move(search.runs), basis, settings);
+  } else if (has_fractures) {
+    data.runs = settings.fractures->runs;
+  }
+  if (has_fractures) {
     const auto surface = learnt_surface(data, basis, procedure.emulator);
     data.model = data.model.with_surface(surface);
     data.observations.emulator_variance = emulator_variance(data.observations, *surface, basis.centre);
   }
-  data.effects = acting_effects(data.model, data.observations, procedure.fit);
+  data.effects = acting_effects(data.model, data.observations, settings);
   return data;
 }
 
 LearntData learnt_at(const Data& data, const std::vector<material::ParameterSet>& sets, const EmulatorRules& rules) {
   LearntData learnt{data, 0.0};
-  if (!data.fractures) return learnt;
+  if (data.fracture_groups.empty()) return learnt;
   const FractureSurface& before = *data.model.surface();
-  for (FractureRun& run : data.fractures->runs_at(sets, data.runs)) {
+  std::vector<FractureRun> runs;
+  if (data.fractures) runs = data.fractures->runs_at(sets, data.runs);
+  for (FractureRun& run : runs) {
     learnt.largest_error = std::max(learnt.largest_error, error_at(run, before, data.observations.reading));
     learnt.data.runs.push_back(std::move(run));
   }
@@ -236,7 +203,7 @@ tester::Curve curve_at(const Data& data, int group, const FittedModel& fit) {
     return distance;
   };
   const FractureRun& nearest = *std::ranges::min_element(data.runs, {}, distance_to);
-  const auto place = std::ranges::find(data.fractures->groups(), group) - data.fractures->groups().begin();
+  const auto place = std::ranges::find(data.fracture_groups, group) - data.fracture_groups.begin();
   return sysid::observed(nearest.predictions[place], fit.parameters.extensions, {.batch_step = g.batch_step}).curve;
 }
 

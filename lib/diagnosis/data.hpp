@@ -14,7 +14,8 @@ namespace nacre::diagnosis {
 
 struct Data {
   Observations observations;                       ///< with the error of the emulator
-  std::shared_ptr<const FractureTests> fractures;  ///< nothing: there are none
+  std::shared_ptr<const FractureTests> fractures;  ///< nothing: there are none, or others simulated them
+  std::vector<int> fracture_groups;                ///< that the model is to learn: fracture tests
   std::vector<FractureRun> runs;                   ///< that the model's surface has learnt from
   FeatureModel model;
   std::vector<std::string> effects;  ///< that act on some row: candidates, in the order of material::effect_library()
@@ -24,9 +25,10 @@ struct Data {
 /// NothingMeasured.
 Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
-/// Effects that have a signature in these rows, in the order of material::effect_library().
+/// Effects that have a signature in these rows, in the order of material::effect_library(). Of what others simulated
+/// without an effect nothing is known about it: none where fracture tests are among the rows.
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations,
-                                        const FitRules& rules);
+                                        const DiagnosisSettings& settings);
 
 /// Data whose fracture tests were simulated at further parameters, with the emulator that has learnt from them; its
 /// error is that at the first of them.

@@ -250,4 +250,13 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   return diagnosis;
 }
 
+Diagnosis diagnose_or_say_why_not(const std::vector<measurement::SpecimenRecord>& specimens,
+                                  const DiagnosisSettings& settings) {
+  try {
+    return diagnose(specimens, settings);
+  } catch (const NothingMeasured& nothing) {
+    return insufficient(nothing.what());
+  }
+}
+
 }  // namespace nacre::diagnosis

@@ -14,4 +14,8 @@ namespace nacre::diagnosis {
 /// name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
+/// The same; `insufficient` where there is no row to diagnose.
+Diagnosis diagnose_or_say_why_not(const std::vector<measurement::SpecimenRecord>& specimens,
+                                  const DiagnosisSettings& settings);
+
 }  // namespace nacre::diagnosis

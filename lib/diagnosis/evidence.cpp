@@ -40,7 +40,7 @@ Evidence with_shared_discretisation(Evidence evidence) {
 /// Fracture tests simulated at the base fit and at those of the effects that come nearest, until the emulator predicts
 /// them.
 Evidence with_refined_fractures(Evidence evidence) {
-  if (!evidence.fractures) return evidence;
+  if (evidence.fracture_groups.empty()) return evidence;
   const EmulatorRules& rules = evidence.settings.procedure.emulator;
   for (int pass = 0; pass < rules.refinements; ++pass) {
     std::vector<const FittedModel*> order;

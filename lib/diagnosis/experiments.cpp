@@ -12,10 +12,12 @@ namespace {
 using tester::TestKind;
 
 /// Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: of the others the
-/// modulus gives the same information for less.
-std::vector<PossibleTest> tests_worth_their_cost(const Observations& observations, const TestRules& rules) {
-  std::vector<PossibleTest> tests = possible_tests(observations, rules);
-  if (observations.has(TestKind::modulus))
+/// modulus gives the same information for less. Where fracture tests are simulated elsewhere, none could be predicted.
+std::vector<PossibleTest> tests_worth_their_cost(const Evidence& evidence, const TestRules& rules) {
+  std::vector<PossibleTest> tests = possible_tests(evidence.observations, rules);
+  if (evidence.settings.fractures)
+    std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness; });
+  if (evidence.observations.has(TestKind::modulus))
     std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness && !is_twin(t.way.kind); });
   return tests;
 }
@@ -32,7 +34,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t models) {
 std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
                                              const TestRules& rules) {
   if (models.size() < 2) return {};
-  const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence.observations, rules);
+  const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence, rules);
   const PredictedTests predicted(evidence, models, tests, rules.replicates);
   const auto pairs = pairs_of(models.size());
   std::vector<TestValue> values(tests.size());

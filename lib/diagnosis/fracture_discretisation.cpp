@@ -160,12 +160,13 @@ double FractureDiscretisation::covariance(Feature a, Feature b, double z_a, doub
   return shared(r, c) + z_a * z_b * rigid(r, c) + (same_layout ? layout(r, c) : 0.0);
 }
 
-FractureDiscretisation read_fracture_discretisation(const std::filesystem::path& file, tester::Fidelity fidelity) {
-  const toml::table document = read_toml_file(file);
+FractureDiscretisation fracture_discretisation_from(std::string_view toml, std::string_view source,
+                                                    tester::Fidelity fidelity) {
+  const toml::table document = read_toml(toml, source);
   FractureDiscretisation floor;
   const toml::table* table = document[tester::to_string(fidelity)]["curve"].as_table();
   if (table == nullptr) return floor;
-  const std::string place = fmt::format("{}: [{}.curve]", file.string(), tester::to_string(fidelity));
+  const std::string place = fmt::format("{}: [{}.curve]", source, tester::to_string(fidelity));
   const toml::array* names = (*table)["features"].as_array();
   if (names == nullptr) throw InputError::format("{}: expected features, an array of names", place);
   for (const toml::node& node : *names) {
@@ -177,6 +178,10 @@ FractureDiscretisation read_fracture_discretisation(const std::filesystem::path&
   floor.rigid = as_covariance(matrix(*table, "covariance_rigid", names->size(), place), "covariance_rigid", place);
   floor.layout = as_covariance(matrix(*table, "covariance_layout", names->size(), place), "covariance_layout", place);
   return floor;
+}
+
+FractureDiscretisation read_fracture_discretisation(const std::filesystem::path& file, tester::Fidelity fidelity) {
+  return fracture_discretisation_from(read_file(file), file.string(), fidelity);
 }
 
 }  // namespace nacre::diagnosis

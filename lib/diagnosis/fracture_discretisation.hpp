@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/features.hpp"
@@ -41,7 +42,11 @@ FractureDiscretisation at_own_constants(const FractureDiscretisation& table, con
 /// Where a layout stands between the rigid fractions of the study: z above.
 double rigid_position(const pattern::Design& design);
 
-/// Reads [FIDELITY.curve]; a file without that table knows nothing. Throws InputError naming file and key.
+/// Reads [FIDELITY.curve]; a document without that table knows nothing. Throws InputError naming source and key.
+FractureDiscretisation fracture_discretisation_from(std::string_view toml, std::string_view source,
+                                                    tester::Fidelity fidelity);
+
+/// The same from a file.
 FractureDiscretisation read_fracture_discretisation(const std::filesystem::path& file, tester::Fidelity fidelity);
 
 }  // namespace nacre::diagnosis

@@ -67,22 +67,27 @@ FeatureValues shown_features(const sysid::Prediction& prediction, const material
   return features;
 }
 
-FractureTests::FractureTests(const Observations& observations, tester::Fidelity fidelity,
-                             const std::filesystem::path& store, int threads)
-    : simulator_(std::make_unique<sysid::LocalSimulator>(fidelity, threads, store)) {
+FractureGroups fracture_groups(const Observations& observations) {
   const double sd = observations.replicate_sd(Feature::log_toughness, tester::TestKind::toughness);
+  FractureGroups found;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     if (observations.groups[g].test != tester::TestKind::toughness) continue;
-    groups_.push_back(static_cast<int>(g));
-    measured_.push_back(replicates_of(observations.groups[g], sd));
+    found.groups.push_back(static_cast<int>(g));
+    found.measured.push_back(replicates_of(observations.groups[g], sd));
   }
+  return found;
 }
+
+FractureTests::FractureTests(const Observations& observations, tester::Fidelity fidelity,
+                             const std::filesystem::path& store, int threads)
+    : of_set_(fracture_groups(observations)),
+      simulator_(std::make_unique<sysid::LocalSimulator>(fidelity, threads, store)) {}
 
 std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::ParameterSet>& sets,
                                                 std::span<const FractureRun> known,
                                                 const std::function<void()>& done) const {
   std::vector<sysid::WantedEvaluation> wanted;
-  std::vector<std::size_t> items(measured_.size());
+  std::vector<std::size_t> items(of_set_.measured.size());
   std::iota(items.begin(), items.end(), std::size_t{0});
   for (const material::ParameterSet& set : sets) {
     const material::ParameterSet simulated = simulated_side(set);
@@ -98,7 +103,7 @@ std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::Para
                       .items = items,
                       .first_specimen = tester::kFirstCalibrationSpecimen + number});
   }
-  auto predictions = simulator_->simulate(measured_, wanted, done);
+  auto predictions = simulator_->simulate(of_set_.measured, wanted, done);
   std::vector<FractureRun> runs;
   for (std::size_t k = 0; k < wanted.size(); ++k) runs.push_back({wanted[k].parameters, std::move(predictions[k])});
   return runs;
@@ -107,7 +112,7 @@ std::vector<FractureRun> FractureTests::runs_at(const std::vector<material::Para
 std::vector<RefinedLayout> FractureTests::refined_layouts(const material::ParameterSet& set,
                                                           const CurveReading& reading, const EmulatorRules& rules,
                                                           const std::function<void()>& done) const {
-  const std::vector<std::size_t> items = spread_over_rigid_fraction(measured_, rules.refined_layouts);
+  const std::vector<std::size_t> items = spread_over_rigid_fraction(of_set_.measured, rules.refined_layouts);
   std::vector<sysid::WantedEvaluation> wanted;
   for (const int refinement : {1, 2})
     for (int k = 0; k < rules.refined_specimens; ++k)
@@ -117,11 +122,11 @@ std::vector<RefinedLayout> FractureTests::refined_layouts(const material::Parame
                         .items = items,
                         .first_specimen = tester::kFirstPredictionSpecimen + k,
                         .refinement = refinement});
-  const auto predictions = simulator_->simulate(measured_, wanted, done);
+  const auto predictions = simulator_->simulate(of_set_.measured, wanted, done);
   const auto count = static_cast<std::size_t>(rules.refined_specimens);
   std::vector<RefinedLayout> layouts;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    RefinedLayout layout{.design = measured_[items[i]].design, .coarse = {}, .fine = {}};
+    RefinedLayout layout{.design = of_set_.measured[items[i]].design, .coarse = {}, .fine = {}};
     bool broke = true;
     for (std::size_t k = 0; k < 2 * count; ++k) {
       const sysid::Prediction& one = predictions[k][i];
@@ -138,11 +143,11 @@ std::vector<RefinedLayout> FractureTests::refined_layouts(const material::Parame
 FractureTests::Designs FractureTests::designs() const {
   constexpr double kLeastPa = 1.0;
   Designs designs;
-  for (const measurement::Replicates& each : measured_)
+  for (const measurement::Replicates& each : of_set_.measured)
     if (each.toughness_pa > kLeastPa &&
         std::ranges::find(designs.measured, each.design, &measurement::Replicates::design) == designs.measured.end())
       designs.measured.push_back(each);
-  for (const measurement::Replicates& each : measured_)
+  for (const measurement::Replicates& each : of_set_.measured)
     designs.of_group.push_back(std::ranges::find(designs.measured, each.design, &measurement::Replicates::design) -
                                designs.measured.begin());
   return designs;

@@ -23,6 +23,13 @@ struct FractureRun {
   std::vector<sysid::Prediction> predictions;  ///< per fracture group; without values where the simulation failed
 };
 
+/// The groups of a set that are fracture tests.
+struct FractureGroups {
+  std::vector<int> groups;                        ///< indices of the observations' groups
+  std::vector<measurement::Replicates> measured;  ///< the same in the form that a calibration uses
+};
+FractureGroups fracture_groups(const Observations& observations);
+
 /// The features of a prediction as recorded by a machine with these measurement-side extensions.
 FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
                              const CurveReading& reading, const measurement::PrintContext& context = {});
@@ -40,7 +47,7 @@ class FractureTests {
   FractureTests(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store,
                 int threads);
   /// Indices of the observations' groups that are fracture tests.
-  const std::vector<int>& groups() const { return groups_; }
+  const std::vector<int>& groups() const { return of_set_.groups; }
   /// All groups at each of these sets that is not among the `known` runs; `done` after every simulation.
   std::vector<FractureRun> runs_at(const std::vector<material::ParameterSet>& sets, std::span<const FractureRun> known,
                                    const std::function<void()>& done = {}) const;
@@ -63,8 +70,7 @@ class FractureTests {
   };
   Designs designs() const;
 
-  std::vector<int> groups_;
-  std::vector<measurement::Replicates> measured_;
+  FractureGroups of_set_;
   std::unique_ptr<sysid::LocalSimulator> simulator_;
 };
 

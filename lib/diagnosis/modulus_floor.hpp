@@ -2,6 +2,7 @@
 // Discretisation floor of the modulus tester (data/discretisation_floor.toml, docs/studies/discretisation-floor.md).
 
 #include <filesystem>
+#include <string_view>
 
 #include "tester/names.hpp"
 
@@ -17,7 +18,10 @@ struct ModulusFloor {
 };
 
 /// Reads [FIDELITY] log_modulus_sd and, when present, mesh_amplitude and mesh_remainder_sd. Throws InputError naming
-/// file and key.
+/// source and key.
+ModulusFloor modulus_floor_from(std::string_view toml, std::string_view source, tester::Fidelity fidelity);
+
+/// The same from a file.
 ModulusFloor read_modulus_floor(const std::filesystem::path& file, tester::Fidelity fidelity);
 
 }  // namespace nacre::diagnosis

@@ -66,16 +66,18 @@ struct ConstantRules {
 
 /// Fracture tests: runs around a fit, and the emulator that learns from them (docs/decisions/0004).
 struct EmulatorRules {
-  int pairs = 14;                                 ///< opposite runs about the centre
-  double spread = 0.3;                            ///< of these, in log units of every constant
-  std::array<double, 2> effect_sizes{0.2, 0.5};   ///< at which effects are run, as shares of their range
-  double jitter = 0.15;                           ///< of eta meanwhile, in log units
-  double level_sd = 3.0;                          ///< of a feature's level, in its spread over runs
-  double curved_length = 1.0;                     ///< of the curved part, in log units of eta
-  double effect_length = 0.5;                     ///< of an effect's part, as a share of its range
-  double own_share = 0.15;                        ///< of an effect's variance that depends on eta
-  double no_effect = 1e-3;                        ///< share of its range below which an effect is none
-  double least_amplitude = 0.3;                   ///< of an effect's part, in deviations of the noise
+  int pairs = 14;                                               ///< opposite runs about the centre
+  double spread = 0.3;                                          ///< of these, in log units of every constant
+  std::array<double, 2> effect_sizes{0.2, 0.5};                 ///< at which effects are run, as shares of their range
+  double jitter = 0.15;                                         ///< of eta meanwhile, in log units
+  int fewest_base_models = 9;                                   ///< that an emulator on a budget learns from
+  std::array<double, 4> sizes_in_turn{0.35, -0.35, 0.15, 0.6};  ///< of effects on a budget
+  double level_sd = 3.0;                                        ///< of a feature's level, in its spread over runs
+  double curved_length = 1.0;                                   ///< of the curved part, in log units of eta
+  double effect_length = 0.5;                                   ///< of an effect's part, as a share of its range
+  double own_share = 0.15;                                      ///< of an effect's variance that depends on eta
+  double no_effect = 1e-3;                                      ///< share of its range below which an effect is none
+  double least_amplitude = 0.3;                                 ///< of an effect's part, in deviations of the noise
   std::array<double, 3> kernel{0.0, -1.0, -1.5};  ///< prior of the logarithms of linear part, curved part and noise
   double kernel_sd = 1.5;                         ///< of that prior
   int nearest = 5;                                ///< runs whose curves stand for a fit's behind the machine

@@ -56,6 +56,8 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("spread", m.spread);
   field("effect_sizes", m.effect_sizes);
   field("jitter", m.jitter);
+  field("fewest_base_models", m.fewest_base_models);
+  field("sizes_in_turn", m.sizes_in_turn);
   field("level_sd", m.level_sd);
   field("curved_length", m.curved_length);
   field("effect_length", m.effect_length);

@@ -48,6 +48,7 @@ struct DiagnosisStageSettings {
   bool enabled = true;
   int discrimination_orders = 2;  ///< extra tests a round that separate rival causes
   int bootstraps = 2000;
+  int simulations = 300;  ///< fracture tests that the farm may simulate for each; 0: fracture tests are left out
   bool operator==(const DiagnosisStageSettings&) const = default;
 };
 

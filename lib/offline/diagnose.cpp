@@ -7,21 +7,9 @@
 #include "offline/specimen_units.hpp"
 
 namespace nacre::offline {
-namespace {
-
-diagnosis::Diagnosis diagnosis_of(const std::vector<measurement::SpecimenRecord>& specimens,
-                                  const diagnosis::DiagnosisSettings& settings) {
-  try {
-    return diagnosis::diagnose(specimens, settings);
-  } catch (const diagnosis::NothingMeasured& problem) {
-    return diagnosis::insufficient(problem.what());
-  }
-}
-
-}  // namespace
 
 DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosis::DiagnosisSettings& settings) {
-  DiagnosedSet diagnosed{diagnosis_of(set.specimens, settings), {}};
+  DiagnosedSet diagnosed{diagnosis::diagnose_or_say_why_not(set.specimens, settings), {}};
   diagnosis::Diagnosis& diagnosis = diagnosed.diagnosis;
   diagnosis.data = diagnosis::summary_of_data(set.specimens, settings.procedure.noise);
   if (diagnosis.verdict == diagnosis::Verdict::insufficient) diagnosis.summary += trends_in_words(diagnosis.data);

@@ -21,19 +21,22 @@ struct NamedSpecimen {
   bool operator==(const NamedSpecimen&) const = default;
 };
 
-/// DIAGNOSE: the measurements meant and the calibrated parameters.
+/// DIAGNOSE: the measurements meant, the calibrated parameters, and what was simulated in search of them.
 struct DiagnoseRequest {
   using Wire = diagnose_request_t;
   int round = 0;
   tester::Fidelity fidelity = tester::Fidelity::full;
   material::ParameterSet parameters;
-  std::vector<NamedSpecimen> specimens;  ///< sorted
+  std::vector<sysid::EvaluatedModel> evaluated;  ///< in that search
+  std::vector<NamedSpecimen> specimens;          ///< sorted
   bool operator==(const DiagnoseRequest&) const = default;
 
   static void fields(auto& field, auto& m) {
     field("round", m.round, kRoundNumber);
     field("fidelity", m.fidelity);
     field("parameters", m.parameters);
+    field.count("n_evaluated", m.evaluated);
+    field("evaluated", m.evaluated);
     field.count("n_specimens", m.specimens);
     field.columns(m.specimens, [](auto& column, auto& specimen) {
       column("specimens", specimen.name);

@@ -12,6 +12,7 @@
 #include "material/parameters.hpp"
 #include "measurement/limits.hpp"
 #include "sysid/errors.hpp"
+#include "sysid/evaluated_model.hpp"
 #include "sysid/provenance.hpp"
 #include "tester/simulation.hpp"
 
@@ -85,6 +86,14 @@ struct FieldsOf<material::ParameterSet> {
     }
   }
   static std::string contradiction(const material::ParameterSet& m) { return material::parameter_fault(m); }
+};
+
+template <>
+struct FieldsOf<sysid::EvaluatedModel> {
+  static void fields(auto& field, auto& m) {
+    field("parameters", m.parameters);
+    field("specimen", m.specimen, kCounted);
+  }
 };
 
 template <>

@@ -9,10 +9,14 @@
 #include "analyser/diagnosis_work.hpp"
 #include "analyser/works.hpp"
 #include "base/counted.hpp"
+#include "base/expected.hpp"
+#include "base/files.hpp"
 #include "base/hash.hpp"
+#include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
 #include "game/model.hpp"
 #include "game/starting_point.hpp"
+#include "runtime/journal.hpp"
 #include "wire/channels.hpp"
 
 namespace nacre::analyser {
@@ -27,8 +31,8 @@ bool is_kept(const std::string& channel) {
 }  // namespace
 
 AnalyserCore::AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges,
-                           const diagnosis::ModulusFloor& floor)
-    : scenario_(scenario), ranges_(ranges), floor_(floor) {}
+                           std::string floor_toml)
+    : scenario_(scenario), ranges_(ranges), floor_toml_(std::move(floor_toml)) {}
 
 runtime::Outputs AnalyserCore::step(const runtime::Input& input) {
   outputs_ = {};
@@ -72,7 +76,7 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
   } else if (message.channel == "DIAGNOSE") {
     accept_request(*wire::read<wire::DiagnoseRequest>(message.payload));
   } else if (message.channel == "SIMULATED") {
-    accept_response(*wire::read<wire::SimulateResult>(message.payload));
+    if (!take_for_diagnosis(message.payload)) accept_response(*wire::read<wire::SimulateResult>(message.payload));
   } else if (message.channel == "FRACTURE") {
     accept_fracture(*wire::read<wire::Fracture>(message.payload));
   } else if (message.channel == "ROUND") {
@@ -117,18 +121,58 @@ std::vector<std::string> AnalyserCore::missing_specimens() const {
 
 void AnalyserCore::diagnose_when_complete() {
   if (!waiting_diagnosis_ || !missing_specimens().empty()) return;
-  std::vector<std::string> payloads;
-  for (const wire::NamedSpecimen& specimen : waiting_diagnosis_->specimens)
-    payloads.push_back(measurements_.at({specimen.name, specimen.revision}));
-  outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", waiting_diagnosis_->round),
-                               .kind = "diagnose",
-                               .spec = diagnosis_spec({.request = *waiting_diagnosis_,
-                                                       .measurements = payloads,
-                                                       .bootstraps = scenario_.diagnosis.bootstraps,
-                                                       .seed = scenario_.seed,
-                                                       .ranges = ranges_,
-                                                       .floor = floor_})});
-  waiting_diagnosis_.reset();
+  diagnosis_ = OpenDiagnosis{
+      .request = *std::exchange(waiting_diagnosis_, std::nullopt), .awaited = {}, .simulated = {}, .collector = {}};
+  if (scenario_.diagnosis.simulations == 0 || !has_fractures(*diagnosis_)) return diagnose();
+  outputs_.computes.push_back(
+      {.id = fmt::format("plan/r{}", diagnosis_->request.round), .kind = "plan", .spec = diagnosis_spec()});
+}
+
+bool AnalyserCore::has_fractures(const OpenDiagnosis& diagnosis) const {
+  return std::ranges::any_of(diagnosis.request.specimens, [&](const wire::NamedSpecimen& specimen) {
+    const std::string& payload = measurements_.at({specimen.name, specimen.revision});
+    return wire::read<wire::Measurement>(payload)->record.test == tester::TestKind::toughness;
+  });
+}
+
+std::string AnalyserCore::diagnosis_spec() const {
+  DiagnosisTask task{.request = diagnosis_->request,
+                     .measurements = {},
+                     .bootstraps = scenario_.diagnosis.bootstraps,
+                     .seed = scenario_.seed,
+                     .simulations = scenario_.diagnosis.simulations,
+                     .ranges = ranges_,
+                     .floor_toml = floor_toml_,
+                     .simulated = {}};
+  for (const wire::NamedSpecimen& specimen : task.request.specimens)
+    task.measurements.push_back(measurements_.at({specimen.name, specimen.revision}));
+  for (const auto& [place, payload] : diagnosis_->simulated) task.simulated.push_back(payload);
+  return analyser::diagnosis_spec(task);
+}
+
+void AnalyserCore::request_for_diagnosis(const std::string& plan) {
+  for (std::string& payload : expected(runtime::unpack(plan))) {
+    diagnosis_->awaited.insert(wire::read<wire::SimulateRequest>(payload)->request_id);
+    outputs_.messages.push_back({"SIMULATE", std::move(payload)});
+  }
+  if (diagnosis_->awaited.empty()) diagnose();
+}
+
+/// Whether the diagnosis in progress awaited it.
+bool AnalyserCore::take_for_diagnosis(const std::string& payload) {
+  wire::SimulateResult part = *wire::read<wire::SimulateResult>(payload);
+  if (!diagnosis_ || !diagnosis_->awaited.contains(part.request_id)) return false;
+  diagnosis_->simulated.emplace(std::pair(part.request_id, part.chunk), payload);
+  const std::string request_id = part.request_id;
+  if (diagnosis_->collector.add(std::move(part))) diagnosis_->awaited.erase(request_id);
+  if (diagnosis_->awaited.empty()) diagnose();
+  return true;
+}
+
+void AnalyserCore::diagnose() {
+  outputs_.computes.push_back(
+      {.id = fmt::format("diagnose/r{}", diagnosis_->request.round), .kind = "diagnose", .spec = diagnosis_spec()});
+  diagnosis_.reset();
 }
 
 void AnalyserCore::close_round(const wire::RoundSummary& round) {
@@ -269,6 +313,8 @@ void AnalyserCore::report_when_ready() {
 void AnalyserCore::accept_work(const runtime::WorkDone& work) {
   if (work.id.starts_with("store/")) {
     storing_.erase(work.id);
+  } else if (work.id.starts_with("plan/")) {
+    request_for_diagnosis(work.result);
   } else if (work.id.starts_with("diagnose/")) {
     const auto diagnosis = wire::read<wire::Diagnosis>(work.result);
     if (diagnosis) {
@@ -300,16 +346,20 @@ runtime::Status AnalyserCore::status() const {
     phase = fmt::format("waiting for measurements of {} of {}: {}", count,
                         counted(std::ssize(waiting_diagnosis_->specimens), "specimen"), fmt::join(missing, ", "));
   }
+  if (diagnosis_ && !diagnosis_->awaited.empty()) phase = "waiting for fracture tests to diagnose with";
   return {.phase = std::move(phase), .round = phase_round_, .progress = -1.0, .finished = finished_};
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   const material::ParameterRanges ranges = game::starting_model(scenario).ranges;
-  const diagnosis::ModulusFloor floor =
-      scenario.discretisation_floor_file.empty()
-          ? diagnosis::ModulusFloor{}
-          : diagnosis::read_modulus_floor(scenario.discretisation_floor_file, scenario.fidelity);
-  return std::make_unique<AnalyserCore>(scenario, ranges, floor);
+  const std::string& file = scenario.discretisation_floor_file;
+  std::string floor_toml;
+  if (!file.empty()) {
+    floor_toml = read_file(file);
+    (void)diagnosis::modulus_floor_from(floor_toml, file, scenario.fidelity);
+    (void)diagnosis::fracture_discretisation_from(floor_toml, file, scenario.fidelity);
+  }
+  return std::make_unique<AnalyserCore>(scenario, ranges, std::move(floor_toml));
 }
 
 }  // namespace nacre::analyser

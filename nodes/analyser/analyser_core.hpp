@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/modulus_floor.hpp"
 #include "game/scenario.hpp"
+#include "material/ranges.hpp"
 #include "runtime/node_core.hpp"
 #include "wire/convert.hpp"
 
@@ -19,18 +19,26 @@ namespace nacre::analyser {
 /// Points of the simulated curves shown with measured ones.
 inline constexpr int kCurvePoints = 64;
 
-/// Keeps every message of the game in run.db (Compute kind "store"), responds to DIAGNOSE with DIAGNOSIS (kind
-/// "diagnose") once all measurements meant have arrived, has the farm simulate at the end of each round the measured
-/// designs with the round's model, and the fracture of proposed designs and those of families (films in RUN/films), and
-/// then has the report written (kind "report"). See works.hpp.
+/// Keeps every message of the game in run.db (Compute kind "store"), responds to DIAGNOSE with DIAGNOSIS (kinds "plan"
+/// and "diagnose") once all measurements meant and the farm's responses have arrived, has the farm simulate at the end
+/// of each round the measured designs with the round's model, and the fracture of proposed designs and those of
+/// families (films in RUN/films), and then has the report written (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
-  AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges,
-               const diagnosis::ModulusFloor& floor);
+  /// `floor_toml`: the discretisation floor of diagnoses; empty: none.
+  AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges, std::string floor_toml);
   runtime::Outputs step(const runtime::Input& input) override;
   runtime::Status status() const override;
 
  private:
+  /// A diagnosis whose measurements are complete.
+  struct OpenDiagnosis {
+    wire::DiagnoseRequest request;
+    std::set<std::string> awaited;                                 ///< ids of requests
+    std::map<std::pair<std::string, int>, std::string> simulated;  ///< payloads by request id and chunk
+    wire::ResponseCollector collector;
+  };
+
   void accept_message(const runtime::Message& message);
   void accept_work(const runtime::WorkDone& work);
   void accept_request(const wire::DiagnoseRequest& request);
@@ -39,6 +47,11 @@ class AnalyserCore : public runtime::NodeCore {
   void store(const std::string& channel, const std::string& payload);
   std::vector<std::string> missing_specimens() const;
   void diagnose_when_complete();
+  bool has_fractures(const OpenDiagnosis& diagnosis) const;
+  std::string diagnosis_spec() const;
+  void request_for_diagnosis(const std::string& plan);
+  bool take_for_diagnosis(const std::string& payload);
+  void diagnose();
   void close_round(const wire::RoundSummary& round);
   bool is_of_this_game(const std::string& measurement);
   void accept_measurement(const std::string& payload);
@@ -52,13 +65,14 @@ class AnalyserCore : public runtime::NodeCore {
 
   game::Scenario scenario_;
   material::ParameterRanges ranges_;
-  diagnosis::ModulusFloor floor_;
+  std::string floor_toml_;
   runtime::Outputs outputs_;  // of the present step
 
   std::map<std::pair<std::string, int>, std::string> measurements_;  // payloads by specimen and revision
   std::map<int, wire::AdoptedModel> models_;
   std::set<int> diagnosed_;  // rounds that a diagnosis was asked for
   std::optional<wire::DiagnoseRequest> waiting_diagnosis_;
+  std::optional<OpenDiagnosis> diagnosis_;
   std::set<std::string> kept_;     // ids of "store" work ever asked for
   std::set<std::string> storing_;  // ids of "store" work in progress
   std::set<int> closed_;           // rounds

@@ -1,14 +1,23 @@
 #include "analyser/diagnosis_work.hpp"
 
+#include <algorithm>
+#include <optional>
+
+#include <fmt/ranges.h>
+
 #include "base/expected.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/fracture_plan.hpp"
 #include "material/extensions.hpp"
+#include "runtime/farm_requests.hpp"
 #include "runtime/journal.hpp"
 
 namespace nacre::analyser {
 namespace {
 
 constexpr std::size_t kFixedFields = 7;
+/// Of simulated curves: as many as a calibration requests, so that the farm has simulated them.
+constexpr int kFracturePoints = runtime::FarmBatch{}.curve_points;
 
 DiagnosisTask task_from(const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
@@ -16,23 +25,87 @@ DiagnosisTask task_from(const std::string& spec) {
   task.request = expected(wire::read<wire::DiagnoseRequest>(fields.at(0)));
   task.bootstraps = std::stoi(fields.at(1));
   task.seed = std::stoull(fields.at(2));
-  task.floor = {.log_modulus_sd = std::stod(fields.at(3)),
-                .mesh_amplitude = std::stod(fields.at(4)),
-                .mesh_remainder_sd = std::stod(fields.at(5))};
-  task.ranges = material::parse_ranges(fields.at(6), "the ranges of a diagnosis");
+  task.simulations = std::stoi(fields.at(3));
+  task.ranges = material::parse_ranges(fields.at(4), "the ranges of a diagnosis");
+  task.floor_toml = fields.at(5);
+  task.simulated = expected(runtime::unpack(fields.at(6)));
   task.measurements.assign(fields.begin() + kFixedFields, fields.end());
   return task;
+}
+
+diagnosis::DiagnosisSettings settings_of(const DiagnosisTask& task) {
+  constexpr std::string_view kSource = "the discretisation floor";
+  diagnosis::DiagnosisSettings settings;
+  settings.start = task.request.parameters;
+  settings.ranges = task.ranges;
+  settings.fidelity = task.request.fidelity;
+  settings.bootstraps = task.bootstraps;
+  settings.seed = task.seed;
+  settings.procedure.curves.fracture_points = kFracturePoints;
+  settings.check_discretisation = false;
+  if (task.floor_toml.empty()) return settings;
+  settings.floor = diagnosis::modulus_floor_from(task.floor_toml, kSource, task.request.fidelity);
+  settings.fracture_discretisation =
+      diagnosis::fracture_discretisation_from(task.floor_toml, kSource, task.request.fidelity);
+  return settings;
 }
 
 std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task) {
   std::vector<measurement::SpecimenRecord> specimens;
   for (const std::string& payload : task.measurements) {
-    measurement::SpecimenRecord record = expected(wire::read<wire::Measurement>(payload)).record;
-    record.valid = true;
-    // Fracture tests take minutes to diagnose: a round does not wait for them.
-    if (record.test != tester::TestKind::toughness) specimens.push_back(std::move(record));
+    specimens.push_back(expected(wire::read<wire::Measurement>(payload)).record);
+    specimens.back().valid = true;
   }
   return specimens;
+}
+
+diagnosis::FracturePlan plan_of(const DiagnosisTask& task) {
+  return diagnosis::plan_fractures(specimens_of(task), task.request.evaluated, task.simulations, settings_of(task));
+}
+
+runtime::FarmBatch batch_of(const diagnosis::FracturePlan& plan, const wire::DiagnoseRequest& request) {
+  return {.requester = "analyser",
+          .label = fmt::format("r{}/diagnosis", request.round),
+          .wanted = plan.wanted,
+          .measured = plan.measured,
+          .fidelity = request.fidelity,
+          .curve_points = kFracturePoints};
+}
+
+/// What the farm simulated; nothing where no plan was made.
+std::optional<diagnosis::SimulatedFractures> simulated_of(const DiagnosisTask& task,
+                                                          const diagnosis::FracturePlan& plan) {
+  if (task.simulated.empty()) return std::nullopt;
+  runtime::FarmRequests farm;
+  (void)farm.ask(batch_of(plan, task.request));
+  for (const std::string& payload : task.simulated) farm.take(expected(wire::read<wire::SimulateResult>(payload)));
+  return diagnosis::simulated_fractures(plan, farm.predictions());
+}
+
+/// What the budget of simulations does not pay, as a further sentence of the summary.
+std::string unaffordable_in_words(const diagnosis::FracturePlan& plan, int simulations) {
+  const std::string budget = fmt::format("diagnosis.simulations of {}", simulations);
+  if (!plan.pays() && !plan.measured.empty())
+    return fmt::format(" Fracture tests are left out: {} does not pay for their simulation.", budget);
+  if (plan.unaffordable.empty()) return {};
+  std::vector<std::string> names = plan.unaffordable;
+  for (std::string& name : names) std::ranges::replace(name, '_', ' ');
+  return fmt::format(" Not weighed, since {} does not pay for it: {}.", budget, fmt::join(names, ", "));
+}
+
+/// A fracture test takes minutes to diagnose where the farm has not simulated it.
+diagnosis::Diagnosis diagnosis_of(const DiagnosisTask& task) {
+  diagnosis::DiagnosisSettings settings = settings_of(task);
+  std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
+  const diagnosis::FracturePlan plan = plan_of(task);
+  settings.fractures = simulated_of(task, plan);
+  if (!settings.fractures)
+    std::erase_if(specimens, [](const measurement::SpecimenRecord& specimen) {
+      return specimen.test == tester::TestKind::toughness;
+    });
+  diagnosis::Diagnosis diagnosis = diagnosis::diagnose_or_say_why_not(specimens, settings);
+  diagnosis.summary += unaffordable_in_words(plan, task.simulations);
+  return diagnosis;
 }
 
 wire::Diagnosis message_of(const diagnosis::Diagnosis& d, int round) {
@@ -69,30 +142,31 @@ wire::Diagnosis message_of(const diagnosis::Diagnosis& d, int round) {
 }  // namespace
 
 std::string diagnosis_spec(const DiagnosisTask& task) {
-  std::vector<std::string> fields = {wire::write(task.request),
-                                     std::to_string(task.bootstraps),
-                                     std::to_string(task.seed),
-                                     fmt::format("{}", task.floor.log_modulus_sd),
-                                     fmt::format("{}", task.floor.mesh_amplitude),
-                                     fmt::format("{}", task.floor.mesh_remainder_sd),
-                                     material::to_csv(task.ranges)};
+  std::vector<std::string> fields = {wire::write(task.request),     std::to_string(task.bootstraps),
+                                     std::to_string(task.seed),     std::to_string(task.simulations),
+                                     material::to_csv(task.ranges), task.floor_toml,
+                                     runtime::pack(task.simulated)};
   fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
   return runtime::pack(fields);
 }
 
+std::string plan_work(const std::string& spec) {
+  const DiagnosisTask task = task_from(spec);
+  std::vector<std::string> requests;
+  try {
+    const diagnosis::FracturePlan plan = plan_of(task);
+    runtime::FarmRequests farm;
+    for (const wire::SimulateRequest& request : farm.ask(batch_of(plan, task.request)))
+      requests.push_back(wire::write(request));
+  } catch (const std::runtime_error&) {  // the diagnosis says what is wrong with these measurements
+  }
+  return runtime::pack(requests);
+}
+
 std::string diagnose_work(const std::string& spec) {
   const DiagnosisTask task = task_from(spec);
-  diagnosis::DiagnosisSettings settings;
-  settings.start = task.request.parameters;
-  settings.ranges = task.ranges;
-  settings.fidelity = task.request.fidelity;
-  settings.bootstraps = task.bootstraps;
-  settings.seed = task.seed;
-  settings.floor = task.floor;
-  settings.check_discretisation = false;
-  const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
-    return wire::write(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
+    return wire::write(message_of(diagnosis_of(task), task.request.round));
   } catch (const InputError& error) {
     return wire::write(message_of(diagnosis::insufficient(error.what()), task.request.round));
   } catch (const std::runtime_error& error) {

@@ -1,11 +1,10 @@
 #pragma once
-// Specimens and calibrated parameters in, the payload of a DIAGNOSIS out.
+// Specimens, calibrated parameters and fracture tests that the farm has simulated in, the payload of a DIAGNOSIS out.
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "diagnosis/modulus_floor.hpp"
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "wire/convert.hpp"
@@ -19,11 +18,19 @@ struct DiagnosisTask {
   std::vector<std::string> measurements;  ///< payloads of the MEASUREMENTs meant, in the order of the request
   int bootstraps = 2000;
   std::uint64_t seed = 1;
+  int simulations = 0;  ///< fracture tests that the farm may simulate for it
   material::ParameterRanges ranges = material::default_ranges();
-  diagnosis::ModulusFloor floor;
+  std::string floor_toml;              ///< discretisation floor (data/discretisation_floor.toml); empty: none
+  std::vector<std::string> simulated;  ///< payloads of the farm's SIMULATEDs, for a diagnosis
 };
-/// Spec of "diagnose"; its result is the payload of the DIAGNOSIS.
+/// Spec of "plan" and "diagnose".
 std::string diagnosis_spec(const DiagnosisTask& task);
+
+/// The payloads of the SIMULATEs that the diagnosis wants responses to first, packed (runtime::pack); none where there
+/// are no fracture tests, or too few simulations for them.
+std::string plan_work(const std::string& spec);
+
+/// The payload of the DIAGNOSIS. Without responses to what plan_work() wants it looks at no fracture tests.
 std::string diagnose_work(const std::string& spec);
 
 }  // namespace nacre::analyser

@@ -29,6 +29,7 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
          database->keep((*fields)[0], (*fields)[1]);
          return "kept";
        }},
+      {"plan", plan_work},
       {"diagnose", diagnose_work},
       {"report",
        [database, read = std::make_shared<run::Run>(run_dir), run_dir](const std::string& round) -> std::string {

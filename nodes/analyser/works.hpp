@@ -13,7 +13,7 @@ namespace nacre::analyser {
 std::string store_spec(const std::string& channel, const std::string& payload);
 
 /// All work functions: "store" keeps a message in RUN_DIR/run.db, "report" writes RUN_DIR/report.html from it,
-/// "diagnose" is pure.
+/// "plan" and "diagnose" are pure.
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir);
 
 }  // namespace nacre::analyser

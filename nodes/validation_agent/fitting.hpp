@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sysid/calibration.hpp"
+#include "sysid/evaluated_model.hpp"
 
 namespace nacre::validation_agent {
 
@@ -18,12 +19,20 @@ class Fitting {
   const sysid::CalibrationProtocol& calibration() const { return *calibration_; }
   /// Predictions of all wanted evaluations, in their order.
   void tell(const std::vector<std::vector<sysid::Prediction>>& predictions) {
-    for (std::size_t index = 0; index < predictions.size(); ++index) calibration_->tell(index, predictions[index]);
+    const std::vector<sysid::WantedEvaluation> wanted = calibration_->wanted();
+    for (std::size_t index = 0; index < predictions.size(); ++index) {
+      calibration_->tell(index, predictions[index]);
+      if (wanted[index].toughness && wanted[index].specimens == 1)
+        evaluated_.push_back({wanted[index].parameters, wanted[index].first_specimen});
+    }
   }
+  /// Those of all that was told which broke one specimen of every design.
+  const std::vector<sysid::EvaluatedModel>& evaluated() const { return evaluated_; }
 
  private:
   std::vector<measurement::Replicates> measured_;
   std::unique_ptr<sysid::CalibrationProtocol> calibration_;
+  std::vector<sysid::EvaluatedModel> evaluated_;
 };
 
 }  // namespace nacre::validation_agent

@@ -14,9 +14,9 @@
 #include "game/measurement_book.hpp"
 #include "game/scenario.hpp"
 #include "optimize/pareto.hpp"
+#include "runtime/farm_requests.hpp"
 #include "runtime/node_core.hpp"
 #include "validation_agent/family_stage.hpp"
-#include "validation_agent/farm_requests.hpp"
 #include "validation_agent/fitting.hpp"
 #include "validation_agent/order_desk.hpp"
 #include "wire/convert.hpp"
@@ -104,6 +104,7 @@ class ValidationCore : public runtime::NodeCore {
   void take_over(const sysid::Calibrated& result);
   /// What the present round is fitted to.
   material::FitTarget fit_target() const;
+  std::vector<sysid::EvaluatedModel> latest_evaluated() const;
   void diagnose();
   std::optional<material::ParameterSet> extended_by(const wire::Diagnosis& diagnosis);
   bool model_holds(const wire::Diagnosis& diagnosis) const;
@@ -149,8 +150,9 @@ class ValidationCore : public runtime::NodeCore {
   std::vector<measurement::SpecimenRecord> specimens_;
   std::map<std::string, int> revisions_;  // of those specimens
   std::vector<measurement::Replicates> calibration_set_;
-  FarmRequests farm_;
+  runtime::FarmRequests farm_;
   std::optional<Fitting> fitting_;
+  std::vector<sysid::EvaluatedModel> evaluated_;  // by the latest calibration of the adopted model
   std::vector<measurement::Replicates> predicted_set_;
   std::vector<sysid::Prediction> proposed_;  // for each of predicted_set_, by the proposal
   sysid::PredictionErrors before_, after_, out_of_sample_;

@@ -166,7 +166,8 @@ void ValidationCore::begin_calibration(const material::ParameterSet& start) {
 
 void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
                               const std::vector<measurement::Replicates>& measured) {
-  for (const wire::SimulateRequest& request : farm_.ask({.label = fmt::format("r{}/{}", round_, label),
+  for (const wire::SimulateRequest& request : farm_.ask({.requester = "validation_agent",
+                                              .label = fmt::format("r{}/{}", round_, label),
                                               .wanted = wanted,
                                               .measured = measured,
                                               .fidelity = scenario_.fidelity})) {
@@ -181,9 +182,11 @@ void ValidationCore::calibrate_on() {
 
 void ValidationCore::finish_calibration() {
   const sysid::Calibrated result = fitting_->calibration().result();
+  std::vector<sysid::EvaluatedModel> evaluated = fitting_->evaluated();
   fitting_.reset();
   simulations_ += result.simulations;
   if (extending_) return finish_trial(result);
+  evaluated_ = std::move(evaluated);
   before_ = result.before;
   take_over(result);
   for (const measurement::Replicates& measured : calibration_set_) calibrated_designs_.insert(measured.design.name());
@@ -216,8 +219,19 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
   }
 }
 
+/// As many as a message may hold beside the names of specimens: the search ends near what it found.
+std::vector<sysid::EvaluatedModel> ValidationCore::latest_evaluated() const {
+  constexpr std::size_t kMost = 60;
+  const std::size_t first = evaluated_.size() - std::min(kMost, evaluated_.size());
+  return {evaluated_.begin() + static_cast<std::ptrdiff_t>(first), evaluated_.end()};
+}
+
 void ValidationCore::diagnose() {
-  wire::DiagnoseRequest request{.round = round_, .fidelity = scenario_.fidelity, .parameters = model_, .specimens = {}};
+  wire::DiagnoseRequest request{.round = round_,
+                                .fidelity = scenario_.fidelity,
+                                .parameters = model_,
+                                .evaluated = latest_evaluated(),
+                                .specimens = {}};
   const std::size_t room = wire::kMaximumBlankPayload - wire::write(request).size();
   for (std::string& name : game::specimens_to_name(specimens_, room)) {
     const int revision = revisions_.at(name);

@@ -32,6 +32,7 @@ modulus_evaluations = 12
 approval = true
 [diagnosis]
 bootstraps = 1000
+simulations = 0
 )";
 
 /// A specimen of an order, lost in the test.

@@ -25,6 +25,7 @@ mixtures = [0.5]
 [diagnosis]
 discrimination_orders = 0
 bootstraps = 1000
+simulations = 0
 )";
 }
 

@@ -30,7 +30,7 @@ using testing::StartsWith;
 
 /// A core with all that it has asked for.
 struct Watched {
-  AnalyserCore core{game::Scenario{}, material::thesis_ranges(), {.log_modulus_sd = 0.006}};
+  AnalyserCore core{game::Scenario{}, material::thesis_ranges(), "[preview]\nlog_modulus_sd = 0.006\n"};
   std::vector<runtime::Compute> computes;
   std::vector<Message> messages;
   std::vector<runtime::LogLine> log;
@@ -96,6 +96,7 @@ std::string coupon_of(const std::string& specimen, const char* material, double 
 std::string request_of_revisions(std::vector<wire::NamedSpecimen> specimens) {
   wire::DiagnoseRequest request;
   request.round = 1;
+  request.fidelity = game::Scenario{}.fidelity;
   request.parameters = material::default_parameters();
   request.specimens = std::move(specimens);
   return wire::write(request);
@@ -123,6 +124,27 @@ std::string round_of(int number, bool last) {
   return wire::write(round);
 }
 
+/// Of a fracture test: pulled to 3 % strain, where it parts.
+tester::Curve fracture_curve(double toughness_pa) {
+  tester::Curve curve;
+  for (int i = 0; i <= 10; ++i) {
+    curve.strain.push_back(3e-3 * i);
+    curve.stress_pa.push_back(2.0 * toughness_pa / 0.03 * i / 10.0);
+  }
+  curve.strain.push_back(0.0301);
+  curve.stress_pa.push_back(0.0);
+  return curve;
+}
+
+std::string fracture_of(const std::string& specimen, std::uint64_t bits, double toughness_pa) {
+  wire::Measurement m = wire::read<wire::Measurement>(measurement_of(specimen, bits)).value();
+  m.record.test = tester::TestKind::toughness;
+  m.record.modulus_pa.reset();
+  m.record.toughness_pa = toughness_pa;
+  m.record.curve = fracture_curve(toughness_pa);
+  return wire::write(m);
+}
+
 /// The farm's response to all that a request asks for.
 std::vector<std::string> responses_to(const Message& request) {
   const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
@@ -134,7 +156,7 @@ std::vector<std::string> responses_to(const Message& request) {
                        .toughness_pa = 1e5,
                        .peak_stress_pa = 1e7,
                        .failure_strain = 0.03,
-                       .curve = {}});
+                       .curve = asked.toughness ? fracture_curve(1e5) : tester::Curve{}});
   std::vector<std::string> payloads;
   for (const auto& part : wire::simulate_response(asked.request_id, results)) payloads.push_back(wire::write(part));
   return payloads;
@@ -226,7 +248,7 @@ TEST(Analyser, MoreDesignsThanARequestHoldsAreFilmedByTwo) {
 TEST(Analyser, TinySpecimensAreNotFilmed) {
   game::Scenario scenario;
   scenario.fidelity = tester::Fidelity::tiny;
-  AnalyserCore core(scenario, material::thesis_ranges(), diagnosis::ModulusFloor{});
+  AnalyserCore core(scenario, material::thesis_ranges(), "");
   (void)core.step(Message{"PARAMETERS", model_of(1)});
   EXPECT_THAT(core.step(Message{"PROPOSAL", proposal_of(1, {5, 6})}).messages, IsEmpty());
 }
@@ -288,6 +310,74 @@ TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
     }
   }
   EXPECT_THAT(specs, SizeIs(1));
+}
+
+/// Fracture tests of three designs, and the request to diagnose them after a calibration of nine evaluations.
+std::vector<Message> fractures_to_diagnose() {
+  std::vector<Message> messages;
+  wire::DiagnoseRequest request;
+  request.round = 1;
+  request.fidelity = game::Scenario{}.fidelity;
+  request.parameters = material::default_parameters();
+  for (int k = 0; k < 9; ++k) {
+    request.evaluated.push_back({request.parameters, tester::kFirstCalibrationSpecimen + k});
+    request.evaluated.back().parameters.toughness.w_vw_j_per_m3 *= 1.0 + 0.1 * k;
+  }
+  for (const std::uint64_t bits : {5U, 6U, 7U})
+    for (const char* replicate : {"/1", "/2"}) {
+      request.specimens.push_back({std::to_string(bits) + replicate, 0});
+      messages.push_back({"MEASUREMENT", fracture_of(request.specimens.back().name, bits, 1e5 * (1.0 + 0.01 * bits))});
+    }
+  messages.push_back({"DIAGNOSE", wire::write(request)});
+  return messages;
+}
+
+TEST(Analyser, FractureTestsAreDiagnosedWithWhatTheFarmSimulates) {
+  std::set<std::string> specs;
+  for (const bool in_order : {true, false}) {
+    Watched analyser;
+    for (const Message& message : fractures_to_diagnose()) analyser.receive(message.channel, message.payload);
+    ASSERT_THAT(analyser.ids("plan"), ElementsAre("plan/r1"));
+    analyser.finish("plan/r1", plan_work(analyser.computes.back().spec));
+    std::vector<Message> requests = analyser.sent_on("SIMULATE");
+    ASSERT_GT(requests.size(), 9U) << "what was evaluated, and effects";
+    for (const Message& request : requests)
+      EXPECT_TRUE(wire::find_channel("SIMULATE")->validate(request.payload)) << "every receiver would drop it";
+    EXPECT_EQ(analyser.core.status().phase, "waiting for fracture tests to diagnose with");
+    if (!in_order) std::reverse(requests.begin(), requests.end());
+    for (const Message& request : requests) {
+      EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
+      for (const std::string& response : responses_to(request))
+        for (int twice = 0; twice < 2; ++twice) analyser.receive("SIMULATED", response);
+    }
+    ASSERT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
+    specs.insert(analyser.computes.back().spec);
+  }
+  ASSERT_THAT(specs, SizeIs(1)) << "whatever comes first";
+  const auto diagnosis = wire::read<wire::Diagnosis>(diagnose_work(*specs.begin())).value();
+  const auto weighed = [&](const char* name) {
+    const auto found = std::ranges::find(diagnosis.candidates, name, &wire::DiagnosedCandidate::name);
+    return found != diagnosis.candidates.end() && found->status != "not_applicable";
+  };
+  EXPECT_TRUE(weighed("toe_slack")) << "acts on nothing else: " << diagnosis.summary;
+}
+
+TEST(Analyser, SaysWhatItsSimulationsDoNotPay) {
+  const auto summary_with = [](int simulations) {
+    game::Scenario scenario;
+    scenario.diagnosis.simulations = simulations;
+    Watched analyser{.core = AnalyserCore(scenario, material::thesis_ranges(), "")};
+    for (const Message& message : fractures_to_diagnose()) analyser.receive(message.channel, message.payload);
+    if (!analyser.ids("plan").empty()) analyser.finish("plan/r1", plan_work(analyser.computes.back().spec));
+    for (const Message& request : analyser.sent_on("SIMULATE"))
+      for (const std::string& response : responses_to(request)) analyser.receive("SIMULATED", response);
+    for (const auto& compute : analyser.computes)
+      if (compute.kind == "diagnose") return wire::read<wire::Diagnosis>(diagnose_work(compute.spec)).value().summary;
+    return std::string("nothing");
+  };
+  for (const int too_few : {0, 3})
+    EXPECT_THAT(summary_with(too_few), AllOf(HasSubstr("no valid specimen"), HasSubstr("Fracture tests are left out")));
+  EXPECT_THAT(summary_with(7 * 3), HasSubstr("diagnosis.simulations of 21 does not pay for it"));
 }
 
 TEST(Analyser, DiagnosisIsPublishedAndKept) {

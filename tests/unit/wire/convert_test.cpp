@@ -51,7 +51,7 @@ TEST(Convert, EveryDomainValueComesBack) {
   expect_round_trip(samples::ack());
   expect_round_trip(samples::ask());
   expect_round_trip(samples::status());
-  expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {{"a", 0}, {"b", 3}}});
+  expect_round_trip(samples::diagnose());
 }
 
 TEST(Convert, PhysicallyImpossibleParametersAreRefused) {

@@ -162,7 +162,11 @@ inline Diagnosis diagnosis() {
 
 inline RunStart run() { return {1, "0123456789abcdef0123456789abcdef", 1}; }
 inline DiagnoseRequest diagnose() {
-  return {1, tester::Fidelity::full, material::default_parameters(), {{"a", 0}, {"b", 2}}};
+  return {1,
+          tester::Fidelity::full,
+          material::default_parameters(),
+          {{material::default_parameters(), 1003}},
+          {{"a", 0}, {"b", 2}}};
 }
 inline Approval approval() { return {1, pattern::Pattern(0x577fffe9fffdef), true, "someone", "a reason"}; }
 inline Withdrawal withdrawal() { return {"r1/mix:0.65/toughness", 2, true, "someone", "cannot be printed"}; }

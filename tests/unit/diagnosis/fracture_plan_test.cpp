@@ -1,0 +1,195 @@
+#include "diagnosis/fracture_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/planned_runs.hpp"
+#include "material/effect_library.hpp"
+#include "pattern/random_pattern.hpp"
+#include "sysid/eta.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr int kBroken = 14, kPieces = 4;
+
+std::vector<pattern::Pattern> planned_layouts() {
+  RandomStream drawn(3, "test/patterns");
+  return pattern::stratified_patterns(kBroken, drawn);
+}
+
+/// Stands for the fracture tester: a triangle whose peak and end depend on eta and on each effect, in a way of their
+/// own over the layouts.
+tester::Curve curve_of(const pattern::Design& design, const material::ParameterSet& set, double chance) {
+  const double place = 10.0 * rigid_position(design);
+  const material::ToughnessVector eta = to_vector(set.toughness),
+                                  centre = to_vector(material::default_parameters().toughness);
+  double log_peak = 15.0 + 0.1 * place + 0.3 * chance, log_end = -3.0 + chance;
+  for (const std::size_t k : sysid::kSearchedEta) {
+    const double moved = std::log(eta[k] / centre[k]);
+    log_peak += 0.2 * std::cos(place + static_cast<double>(k)) * moved;
+    log_end += 0.2 * std::sin(place * 0.5 + static_cast<double>(k)) * moved;
+  }
+  double own = 0.0;
+  for (const material::Effect* effect : fracture_effects()) {
+    own += 1.7;
+    const auto found = set.extensions.find(effect->name);
+    if (found == set.extensions.end()) continue;
+    const double strength = material::strength_of(effect->parameters.front(), found->second.front());
+    log_peak += strength * std::cos(own * place + own);
+    log_end += strength * std::sin(0.7 * own * place + own);
+  }
+  tester::Curve curve;
+  for (int i = 0; i <= 20; ++i) {
+    curve.strain.push_back(std::exp(log_end) * i / 20.0);
+    curve.stress_pa.push_back(std::exp(log_peak) * i / 20.0);
+  }
+  curve.strain.push_back(std::exp(log_end) * 1.01);
+  curve.stress_pa.push_back(0.0);
+  return curve;
+}
+
+sysid::Prediction fractured(const pattern::Design& design, const material::ParameterSet& set, double chance) {
+  tester::Curve curve = curve_of(design, set, chance);
+  return {.modulus_pa = {}, .toughness_pa = tester::area_under(curve), .specimens = 1, .curve = std::move(curve)};
+}
+
+std::vector<measurement::SpecimenRecord> pulled(const material::ParameterSet& truth) {
+  RandomStream chance(9, "test/specimens");
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const pattern::Pattern& layout : planned_layouts())
+    for (int i = 0; i < kPieces; ++i) {
+      measurement::SpecimenRecord& specimen = specimens.emplace_back();
+      specimen.specimen = layout.key() + "/" + std::to_string(i);
+      specimen.design = layout;
+      specimen.test = tester::TestKind::toughness;
+      const sysid::Prediction shown = fractured(layout, truth, 0.03 * chance.normal());
+      specimen.toughness_pa = shown.toughness_pa;
+      specimen.curve = shown.curve;
+    }
+  return specimens;
+}
+
+/// Models that a calibration is taken to have evaluated about the defaults.
+std::vector<sysid::EvaluatedModel> evaluated(int count) {
+  RandomStream random(4, "test/search");
+  std::vector<sysid::EvaluatedModel> models;
+  for (int k = 0; k < count; ++k) {
+    material::ParameterSet set = material::default_parameters();
+    material::ToughnessVector eta = to_vector(set.toughness);
+    for (const std::size_t i : sysid::kSearchedEta) eta[i] *= std::exp(0.2 * random.normal());
+    set.toughness = material::toughness_from_vector(eta);
+    models.push_back({set, tester::kFirstCalibrationSpecimen + k});
+  }
+  return models;
+}
+
+DiagnosisSettings settings_for_plans() {
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.fidelity = tester::Fidelity::tiny;
+  settings.bootstraps = 1000;
+  settings.check_discretisation = false;
+  return settings;
+}
+
+int cost(const FracturePlan& plan, std::size_t known) {
+  std::size_t simulations = 0;
+  for (std::size_t k = known; k < plan.wanted.size(); ++k) simulations += plan.wanted[k].items.size();
+  return static_cast<int>(simulations);
+}
+
+/// Names of the effects that some model of the plan has.
+std::vector<std::string> effects_of(const FracturePlan& plan) {
+  std::vector<std::string> names;
+  for (const sysid::WantedEvaluation& wanted : plan.wanted)
+    for (const auto& [name, values] : wanted.parameters.extensions)
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
+  return names;
+}
+
+TEST(FracturePlan, StaysWithinItsBudgetAndSaysWhatThatDoesNotPay) {
+  const auto specimens = pulled(material::default_parameters());
+  const auto known = evaluated(12);
+  const std::size_t all = fracture_effects().size();
+  for (const int simulations : {0, 5 * kBroken, 9 * kBroken + 3, 100 * kBroken}) {
+    const FracturePlan plan = plan_fractures(specimens, known, simulations, settings_for_plans());
+    if (!plan.pays()) {
+      EXPECT_EQ(simulations, 0);
+      continue;
+    }
+    EXPECT_LE(cost(plan, known.size()), simulations);
+    EXPECT_EQ(effects_of(plan).size() + plan.unaffordable.size(), all);
+    for (const std::string& name : plan.unaffordable) EXPECT_THAT(effects_of(plan), Not(Contains(name)));
+    const std::size_t paid = std::min(all, static_cast<std::size_t>(simulations / kBroken) - 1);  // one is the centre
+    EXPECT_EQ(plan.unaffordable.size(), all - paid);
+  }
+}
+
+TEST(FracturePlan, WhatACalibrationEvaluatedIsAskedForAsItBrokeIt) {
+  const auto known = evaluated(12);
+  const FracturePlan plan = plan_fractures(pulled(material::default_parameters()), known, 300, settings_for_plans());
+  ASSERT_GT(plan.wanted.size(), known.size());
+  std::vector<int> numbers;
+  for (std::size_t k = 0; k < plan.wanted.size(); ++k) {
+    const sysid::WantedEvaluation& wanted = plan.wanted[k];
+    if (k < known.size()) EXPECT_EQ(wanted.parameters, known[k].parameters);
+    if (k < known.size()) EXPECT_EQ(wanted.first_specimen, known[k].specimen);
+    EXPECT_THAT(numbers, Not(Contains(wanted.first_specimen))) << "a crack of its own in every model";
+    numbers.push_back(wanted.first_specimen);
+  }
+}
+
+TEST(FracturePlan, FewEvaluatedModelsArePaidForFirst) {
+  const FracturePlan plan =
+      plan_fractures(pulled(material::default_parameters()), evaluated(2), 1000, settings_for_plans());
+  const auto base = std::ranges::count_if(plan.wanted, [](const auto& w) { return w.parameters.extensions.empty(); });
+  EXPECT_GE(base, settings_for_plans().procedure.emulator.fewest_base_models);
+  EXPECT_FALSE(plan_fractures(pulled(material::default_parameters()), {}, 9 * kBroken, settings_for_plans()).pays())
+      << "base models alone would know no effect";
+}
+
+/// Of a plan as the stand-in breaks it.
+SimulatedFractures simulated(const FracturePlan& plan) {
+  RandomStream chance(11, "test/simulated");
+  std::vector<std::vector<sysid::Prediction>> predictions;
+  for (const sysid::WantedEvaluation& wanted : plan.wanted) {
+    auto& own = predictions.emplace_back();
+    for (const std::size_t item : wanted.items)
+      own.push_back(fractured(plan.measured[item].design, wanted.parameters, 0.03 * chance.normal()));
+  }
+  return simulated_fractures(plan, predictions);
+}
+
+TEST(FracturePlan, ADiagnosisFromWhatOthersSimulatedNamesWhatActs) {
+  material::ParameterSet truth = evaluated(30).back().parameters;
+  truth.extensions["blunt_notch"] = {0.012};
+  const auto specimens = pulled(truth);
+  DiagnosisSettings own = settings_for_plans();
+  const FracturePlan plan = plan_fractures(specimens, evaluated(14), 13 * kBroken, own);
+  EXPECT_THAT(plan.unaffordable, IsEmpty());
+  own.fractures = simulated(plan);
+  const Diagnosis diagnosis = diagnose(specimens, own);
+  ASSERT_EQ(diagnosis.verdict, Verdict::named) << diagnosis.summary;
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.effects.front().name, "blunt_notch");
+  EXPECT_NEAR(diagnosis.effects.front().parameter, 0.012, 0.003);
+  EXPECT_EQ(diagnosis.simulations, 0) << "none by itself";
+
+  own.fractures->unaffordable = {"blunt_notch"};
+  const Diagnosis without = diagnose(specimens, own);
+  EXPECT_NE(without.verdict, Verdict::base_sufficient) << "it still acts";
+  for (const NamedEffect& named : without.effects) EXPECT_NE(named.name, "blunt_notch");
+}
+
+}  // namespace
+}  // namespace nacre::diagnosis
