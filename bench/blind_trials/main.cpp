@@ -35,10 +35,10 @@ TrialDiagnosis play(const BlindTrial& trial, const Options& options) {
   const fs::path folder = fs::path(options.work) / trial.name;
   if (!fs::exists(folder / "diagnosis.json")) {
     generate(trial, options.trials, folder);
-    diagnose(options.trials, folder);
+    diagnose(trial, options.trials, folder);
     if (trial.kind == "resolved") {
       print_what_was_ordered(trial, options.trials, folder);
-      diagnose(options.trials, folder);
+      diagnose(trial, options.trials, folder);
     }
   }
   return open_trial(trial, options.commit, folder);
@@ -62,6 +62,7 @@ void compare_gains(const Options& options, const std::vector<Score>& scores) {
 void run(Options options) {
   options.trials.fidelity = *tester::fidelity_from_string(options.fidelity);
   if (!options.report.empty()) options.trials.first_seed = report_seed(options.report);
+  if (options.trials.pools.empty()) options.trials.pools = options.work + "-pools";
   const auto began = std::chrono::steady_clock::now();
   study::TextTable table(options.table.empty() ? options.work + ".csv" : options.table, diagnosis_columns());
   std::vector<Score> scores;
@@ -115,6 +116,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--fracture-seeds", options.trials.fracture_seeds, "Trials of each effect on fracture, and size")
       ->capture_default_str();
+  app.add_option("--pools", options.trials.pools,
+                 "Folder of what trials of fracture tests share; default: the folder of the trials, -pools");
   app.add_option("--distorted", options.trials.distorted, "Trials of moduli that a smooth law distorts")
       ->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();

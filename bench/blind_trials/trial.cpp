@@ -18,6 +18,7 @@
 #include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "broken_trials.hpp"
 #include "laboratory/draw.hpp"
 #include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory_file.hpp"
@@ -35,8 +36,7 @@ namespace lab = laboratory;
 using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
-constexpr int kBrokenDesigns = 2, kBrokenLayouts = 24;  ///< of kind `fracture`
-constexpr double kLeastRigid = 0.55;                    ///< of these layouts
+constexpr int kNullsOfTruth = 10;  ///< trials of kind `fracture` that share a truth in which nothing is hidden
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
 /// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between has no signature in the shape
@@ -59,7 +59,8 @@ lab::ReplicateNoise noise_of(const BlindTrial& trial) {
 
 /// The size that a trial hides: in the lower or upper third of the logarithm of what the laboratory draws.
 double hidden_value(const BlindTrial& trial, const lab::EffectKind& kind) {
-  RandomStream random(trial.seed, fmt::format("trial/{}/{}", trial.name, kind.name));
+  const std::string whose = trial.truth_seed > 0 ? "shared" : trial.name;
+  RandomStream random(seed_of_truth(trial), fmt::format("trial/{}/{}", whose, kind.name));
   if (is_pair(trial)) return std::exp(random.uniform(std::log(kPairLeast), std::log(kPairMost)));
   const bool drawn = kind.drawn_maximum > 0.0;
   const double low = std::log(drawn ? kind.drawn_minimum : 0.02 * kind.maximum),
@@ -271,19 +272,6 @@ std::vector<lab::Experiment> tabulated_moduli(const BlindTrial& trial, tester::F
   return experiments;
 }
 
-/// Modulus and fracture of each of 24 upright layouts that are mostly rigid: soft ones take minutes to part.
-std::vector<lab::Experiment> broken_layouts(const BlindTrial& trial, tester::Fidelity fidelity) {
-  RandomStream random(trial.seed % kBrokenDesigns, "blind trials/broken layouts");
-  std::vector<lab::Experiment> experiments;
-  std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(3 * kBrokenLayouts, random);
-  std::erase_if(patterns, [](const pattern::Pattern& each) { return each.rigid_fraction() < kLeastRigid; });
-  patterns.resize(kBrokenLayouts);
-  for (const pattern::Pattern& each : patterns)
-    for (const TestKind test : {TestKind::modulus, TestKind::toughness})
-      experiments.push_back({.design = pattern::Design(each), .test = test, .conditions = {}, .fidelity = fidelity});
-  return experiments;
-}
-
 }  // namespace
 
 std::vector<BlindTrial> all_trials(const TrialOptions& options) {
@@ -339,33 +327,45 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
   add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
   add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);
-  for (int i = 0; i < options.fracture_nulls; ++i) add("fracture", "nothing", {}, true, false);
+  std::uint64_t truth_seed = options.first_seed;
+  const auto add_shared = [&](const std::string& what, std::vector<std::string> hidden, bool large) {
+    add("fracture", what, std::move(hidden), large, false);
+    trials.back().truth_seed = truth_seed;
+  };
+  for (int i = 0; i < options.fracture_nulls; ++i) {
+    if (i > 0 && i % kNullsOfTruth == 0) ++truth_seed;
+    add_shared("nothing", {}, true);
+  }
   const std::vector<std::string> of_fracture = {"progressive_damage", "tension_only_failure", "strength_scatter",
                                                 "blunt_notch",        "residual_strain",      "interface_anisotropy",
                                                 "rigid_yield",        "soft_stiffening"};
-  for (int i = 0; i < options.fracture_seeds; ++i)
-    for (const std::string& name : of_fracture)
-      for (const bool large : {true, false}) add("fracture", name, {name}, large, false);
+  truth_seed = options.first_seed + 1000;
+  for (const std::string& name : of_fracture)
+    for (const bool large : {true, false}) {
+      ++truth_seed;
+      for (int i = 0; i < options.fracture_seeds; ++i) add_shared(name, {name}, large);
+    }
   return trials;
 }
 
 lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
-  lab::Truth truth{.seed = trial.seed,
+  const std::uint64_t seed = seed_of_truth(trial);
+  lab::Truth truth{.seed = seed,
                    .fidelity = options.fidelity,
                    .replicates = kReplicates,
                    .noise = noise_of(trial),
-                   .modulus = lab::draw_modulus_parameters(trial.seed),
-                   .coupons = lab::draw_coupon_ratios(trial.seed),
-                   .toughness = lab::draw_toughness_parameters(trial.seed),
+                   .modulus = lab::draw_modulus_parameters(seed),
+                   .coupons = lab::draw_coupon_ratios(seed),
+                   .toughness = lab::draw_toughness_parameters(seed),
                    .effects = {}};
   if (is_broken(trial)) {
-    const lab::Truth drawn = lab::draw_truth(trial.seed, options.fidelity);
+    const lab::Truth drawn = lab::draw_truth(seed, options.fidelity);
     truth.toughness = drawn.toughness, truth.criterion = drawn.criterion, truth.strength_cv = drawn.strength_cv;
   }
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
     truth.effects.*kind.value = hidden_value(trial, kind);
-    if (kind.second.value) truth.effects.*kind.second.value = lab::draw_second_value(trial.seed, kind);
+    if (kind.second.value) truth.effects.*kind.second.value = lab::draw_second_value(seed, kind);
   }
   return truth;
 }
@@ -408,7 +408,8 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
 void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Experiment> experiments = experiments_of(trial, options);
-  const std::vector<Result<lab::TrueResponse>> responses = responses_of(truth, experiments);
+  const std::vector<Result<lab::TrueResponse>> responses =
+      is_broken(trial) ? responses_of_pool(trial, options, truth, experiments) : responses_of(truth, experiments);
   Specimens records = planned(trial, experiments, responses);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
@@ -419,9 +420,13 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
   const Sealing sealing = sealing_of(options, truth);
   const std::string signals = fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
                                           signals_of(trial, sealing, truth, experiments, records));
+  lab::Truth scattering = truth;
+  scattering.seed = trial.seed;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records[i] = lab::record_specimen(truth, experiments[q], responses[q], replicate_of(trial, records[i], i));
+    lab::Replicate replicate = replicate_of(trial, records[i], i);
+    if (is_broken(trial)) replicate.number = drawn_from_pool(trial, q)[i % kReplicates];
+    records[i] = lab::record_specimen(scattering, experiments[q], responses[q], replicate);
   }
   if (trial.kind == "distorted") distort(trial, records);
   fs::create_directories(folder);
@@ -429,11 +434,16 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
   write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);
 }
 
-void diagnose(const TrialOptions& options, const fs::path& folder) {
+void diagnose(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const std::string result = (folder / "diagnosis.json").string();
+  const fs::path store =
+      is_broken(trial) ? options.pools / fmt::format("design-{}.store", broken_design(trial)) : folder / "store";
+  const std::string kept =
+      is_broken(trial) ? fmt::format("--kept-emulator --params '{}/bench/blind_trials/fracture.toml'", NACRE_SOURCE_DIR)
+                       : "";
   const std::string command =
-      fmt::format("'{}' diagnose '{}' --fidelity {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
-                  (folder / "set").string(), tester::to_string(options.fidelity), (folder / "store").string(), result,
+      fmt::format("'{}' diagnose '{}' --fidelity {} --store '{}' {} --json > '{}.part' 2> '{}'", options.program,
+                  (folder / "set").string(), tester::to_string(options.fidelity), store.string(), kept, result,
                   (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

@@ -21,6 +21,7 @@ struct BlindTrial {
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
   std::vector<std::string> hidden;  ///< names of the laboratory's effects
+  std::uint64_t truth_seed = 0;     ///< of the truth that trials of kind `fracture` share; 0: a truth of its own
 };
 
 struct TrialOptions {
@@ -31,6 +32,8 @@ struct TrialOptions {
   int fracture_nulls = 20, fracture_seeds = 3;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
+  std::filesystem::path pools;   ///< folder of what trials of kind `fracture` share: specimens of each truth, and one
+                                 ///< emulator of each design
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
 };
 
@@ -50,7 +53,8 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options);
 /// machines, of which one has a compliance or a gain of its own, or nothing; `spectrum`: of two materials over seven
 /// decades, under three rate laws, or nothing; `warm`: at three temperatures that shift the rate, under two rate laws,
 /// or nothing. Kind `fracture`: moduli and fracture tests of one of two designs of 24 layouts, whose replicates are
-/// specimens, under effects that act on fracture, or nothing.
+/// specimens, under effects that act on fracture, or nothing. Trials of one effect and size share a truth, ten nulls
+/// do: each draws four of six specimens of a design.
 std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// The truth of a trial's laboratory.
@@ -66,7 +70,7 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const std::f
 void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 /// `nacre diagnose FOLDER/set` as a program of its own, result in FOLDER/diagnosis.json; fracture simulations are kept
-/// in FOLDER/store. Throws InputError when it fails.
-void diagnose(const TrialOptions& options, const std::filesystem::path& folder);
+/// in FOLDER/store, of kind `fracture` in a kept emulator of the design. Throws InputError when it fails.
+void diagnose(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 }  // namespace nacre::blind_trials

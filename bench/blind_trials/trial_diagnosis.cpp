@@ -1,5 +1,6 @@
 #include "trial_diagnosis.hpp"
 
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,8 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "diagnosis/procedure.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::blind_trials {
 namespace {
@@ -38,11 +41,16 @@ SealedEffect hidden_effect(const toml::table& truth, const std::string& name) {
   return hidden;
 }
 
-/// The signal-to-noise ratio of an effect as the diagnosis gives it: at its fitted size. Fracture tests have no other:
-/// what the base imitates is known by an emulator only.
-double seen_signal(const nlohmann::json& diagnosis, const std::string& name) {
-  for (const auto& candidate : diagnosis["candidates"])
-    if (candidate["name"] == name) return candidate.value("signal_to_noise", 0.0);
+/// The signal-to-noise ratio of an effect of this size by the smallest one that the diagnosis would see, as if it grew
+/// with its strength. Fracture tests have no other: what the base imitates is known by an emulator only.
+double seen_signal(const nlohmann::json& diagnosis, const std::string& name, double size) {
+  const double visible = diagnosis::NameRules{}.visible_signal;
+  for (const auto& candidate : diagnosis["candidates"]) {
+    if (candidate["name"] != name || !candidate["smallest_seen"].is_number()) continue;
+    const material::EffectParameter& parameter = material::find_effect(name)->parameters.front();
+    return visible * std::abs(material::strength_of(parameter, size)) /
+           std::abs(material::strength_of(parameter, candidate["smallest_seen"].get<double>()));
+  }
   return 0.0;
 }
 
@@ -92,7 +100,7 @@ TrialDiagnosis open_trial(const BlindTrial& trial, const std::string& commit, co
                         .p_misfit = diagnosis["p_misfit"]};
   for (const std::string& name : trial.hidden) {
     result.hidden.push_back(hidden_effect(truth, name));
-    if (trial.kind == "fracture") result.hidden.back().snr = seen_signal(diagnosis, name);
+    if (trial.kind == "fracture") result.hidden.back().snr = seen_signal(diagnosis, name, result.hidden.back().size);
   }
   for (const auto& effect : diagnosis["effects"])
     result.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});

@@ -148,16 +148,15 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
             {},
             FeatureModel(observations, basis, settings.fidelity),
             {}};
-  if (fractures) {
-    const std::vector<RefinedLayout> refined = refined_around(*fractures, centre, settings);
-    data.observations.fracture_discretisation =
-        at_own_constants(settings.fracture_discretisation, refined, procedure.emulator);
-    data.observations.fracture_change = fracture_change(data.observations, refined);
-    data.runs = runs_around(*fractures, std::move(search.runs), basis, settings);
-  } else if (has_fractures) {
-    data.runs = settings.fractures->runs;
-  }
   if (has_fractures) {
+    const std::vector<RefinedLayout> refined =
+        fractures ? refined_around(*fractures, centre, settings) : settings.fractures->refined;
+    if (!refined.empty()) {
+      data.observations.fracture_discretisation =
+          at_own_constants(settings.fracture_discretisation, refined, procedure.emulator);
+      data.observations.fracture_change = fracture_change(data.observations, refined);
+    }
+    data.runs = fractures ? runs_around(*fractures, std::move(search.runs), basis, settings) : settings.fractures->runs;
     const auto surface = learnt_surface(data, basis, procedure.emulator);
     data.model = data.model.with_surface(surface);
     data.observations.emulator_variance = emulator_variance(data.observations, *surface, basis.centre);

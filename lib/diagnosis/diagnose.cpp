@@ -231,6 +231,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     diagnosis.next_experiments =
         specimens_of_materials(observations, decision.untold, settings.procedure.tests.replicates);
   if (evidence.fractures) diagnosis.simulations = evidence.fractures->simulations();
+  if (settings.fractures) diagnosis.simulations = settings.fractures->simulations;
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "discretisation error of three specimens");
   if (settings.check_discretisation)

@@ -79,28 +79,24 @@ class Purse {
   int specimen_;
 };
 
-/// The most probable base model, and others about it until the emulator has enough of them. Whether all were paid.
-bool buy_base_models(Purse& purse, int evaluated, const material::ParameterSet& centre, const EmulatorRules& rules,
-                     RandomStream& random) {
-  std::vector<material::ParameterSet> wanted = {centre};
-  const int missing = rules.fewest_base_models - evaluated - 1;
-  if (missing > 0)
-    std::ranges::move(opposite_pairs(centre, (missing + 1) / 2, rules, random), std::back_inserter(wanted));
-  return std::ranges::all_of(wanted, [&](const material::ParameterSet& set) { return purse.buy(set); });
+/// Pairs of base models about the centre, so many in all with those that are known. Whether all were paid.
+bool buy_base_models(Purse& purse, int& known, int wanted, const material::ParameterSet& centre,
+                     const EmulatorRules& rules, RandomStream& random) {
+  const int pairs = std::max(0, (wanted - known + 1) / 2);
+  known += 2 * pairs;
+  return std::ranges::all_of(opposite_pairs(centre, pairs, rules, random),
+                             [&](const material::ParameterSet& set) { return purse.buy(set); });
 }
 
-/// Effects one after the other at the first size, then at the next. Those that not even the first was paid for.
-std::vector<std::string> buy_effects(Purse& purse, const material::ParameterSet& centre, const Procedure& procedure,
-                                     RandomStream& random) {
-  const EmulatorRules& rules = procedure.emulator;
-  std::vector<std::string> unaffordable;
-  for (const double size : rules.sizes_in_turn)
-    for (const material::Effect* effect : in_turn()) {
-      const auto set = with_effect(centre, *effect, size, procedure.constants, rules, random);
-      const bool paid = set && purse.buy(*set);
-      if (!paid && size == rules.sizes_in_turn.front()) unaffordable.emplace_back(effect->name);
-    }
-  return unaffordable;
+/// Effects one after the other at this size. Those that were not paid for.
+std::vector<std::string> buy_effects(Purse& purse, double size, const material::ParameterSet& centre,
+                                     const Procedure& procedure, RandomStream& random) {
+  std::vector<std::string> unpaid;
+  for (const material::Effect* effect : in_turn()) {
+    const auto set = with_effect(centre, *effect, size, procedure.constants, procedure.emulator, random);
+    if (!set || !purse.buy(*set)) unpaid.emplace_back(effect->name);
+  }
+  return unpaid;
 }
 
 }  // namespace
@@ -124,8 +120,16 @@ FracturePlan plan_fractures(const std::vector<measurement::SpecimenRecord>& spec
   centre.extensions.clear();
   RandomStream random(settings.seed, "diagnosis/runs");
   for (const sysid::EvaluatedModel& model : evaluated) purse.add_evaluated(model);
-  const bool base_is_known = buy_base_models(purse, base_models, centre, procedure.emulator, random);
-  plan.unaffordable = buy_effects(purse, centre, procedure, random);
+  bool base_is_known = purse.buy(centre);
+  ++base_models;
+  const EmulatorRules& rules = procedure.emulator;
+  for (std::size_t turn = 0; turn < rules.sizes_in_turn.size(); ++turn) {
+    const bool paid = buy_base_models(purse, base_models, rules.models_in_turn[turn], centre, rules, random);
+    const auto unpaid = buy_effects(purse, rules.sizes_in_turn[turn], centre, procedure, random);
+    if (turn > 0) continue;
+    base_is_known = base_is_known && paid;
+    plan.unaffordable = unpaid;
+  }
   const bool lacks_known = std::ranges::any_of(
       plan.unaffordable, [](const std::string& name) { return is_identified_by_moduli(*material::find_effect(name)); });
   if (!base_is_known || lacks_known) plan.wanted.clear();

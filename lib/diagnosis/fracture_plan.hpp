@@ -23,8 +23,8 @@ struct FracturePlan {
 };
 
 /// Each base model that is still missing and each effect costs one simulation of every fracture group, on top of what
-/// was evaluated. Effects come first that moduli identify, then those that fracture tests show best; once all are paid,
-/// further sizes of each.
+/// was evaluated. In turns: base models up to a number, then each effect at one size, those first that moduli identify,
+/// then those that fracture tests show best.
 FracturePlan plan_fractures(const std::vector<measurement::SpecimenRecord>& specimens,
                             const std::vector<sysid::EvaluatedModel>& evaluated, int simulations,
                             const DiagnosisSettings& settings);

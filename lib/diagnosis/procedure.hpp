@@ -70,8 +70,12 @@ struct EmulatorRules {
   double spread = 0.3;                                          ///< of these, in log units of every constant
   std::array<double, 2> effect_sizes{0.2, 0.5};                 ///< at which effects are run, as shares of their range
   double jitter = 0.15;                                         ///< of eta meanwhile, in log units
-  int fewest_base_models = 9;                                   ///< that an emulator on a budget learns from
-  std::array<double, 4> sizes_in_turn{0.35, -0.35, 0.15, 0.6};  ///< of effects on a budget
+  std::array<int, 4> models_in_turn{9, 25, 41, 61};             ///< base models of an emulator on a budget, in all
+  std::array<double, 4> sizes_in_turn{0.35, -0.35, 0.15, 0.6};  ///< of its effects, beside them
+  int kept_pairs = 100;                                         ///< of a kept emulator: opposite runs about the centre
+  double kept_spread = 0.4;                                     ///< of these
+  std::array<double, 4> kept_sizes{0.1, 0.2, 0.35, 0.5};        ///< of its effects
+  double kept_jitter = 0.3;                                     ///< of eta meanwhile
   double level_sd = 3.0;                                        ///< of a feature's level, in its spread over runs
   double curved_length = 1.0;                                   ///< of the curved part, in log units of eta
   double effect_length = 0.5;                                   ///< of an effect's part, as a share of its range

@@ -56,8 +56,12 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("spread", m.spread);
   field("effect_sizes", m.effect_sizes);
   field("jitter", m.jitter);
-  field("fewest_base_models", m.fewest_base_models);
+  field("models_in_turn", m.models_in_turn);
   field("sizes_in_turn", m.sizes_in_turn);
+  field("kept_pairs", m.kept_pairs);
+  field("kept_spread", m.kept_spread);
+  field("kept_sizes", m.kept_sizes);
+  field("kept_jitter", m.kept_jitter);
   field("level_sd", m.level_sd);
   field("curved_length", m.curved_length);
   field("effect_length", m.effect_length);

@@ -19,10 +19,12 @@
 
 namespace nacre::diagnosis {
 
-/// Fracture tests that were simulated elsewhere (fracture_plan.hpp).
+/// Fracture tests that are simulated before a diagnosis (fracture_plan.hpp, kept_emulator.hpp).
 struct SimulatedFractures {
-  std::vector<FractureRun> runs;          ///< base models, and effects on top of them
-  std::vector<std::string> unaffordable;  ///< effects on fracture tests that none shows: no candidates
+  std::vector<FractureRun> runs;            ///< base models, and effects on top of them
+  std::vector<std::string> unaffordable;    ///< effects on fracture tests that none shows: no candidates
+  std::vector<RefinedLayout> refined = {};  ///< layouts on half elements; none: the table of floors says it all
+  int simulations = 0;                      ///< done for it in this process
 };
 
 struct DiagnosisSettings {

@@ -124,8 +124,10 @@ void AnalyserCore::diagnose_when_complete() {
   diagnosis_ = OpenDiagnosis{
       .request = *std::exchange(waiting_diagnosis_, std::nullopt), .awaited = {}, .simulated = {}, .collector = {}};
   if (scenario_.diagnosis.simulations == 0 || !has_fractures(*diagnosis_)) return diagnose();
-  outputs_.computes.push_back(
-      {.id = fmt::format("plan/r{}", diagnosis_->request.round), .kind = "plan", .spec = diagnosis_spec()});
+  outputs_.computes.push_back({.id = fmt::format("plan/r{}", diagnosis_->request.round),
+                               .kind = "plan",
+                               .spec = diagnosis_spec(),
+                               .by_hash = true});
 }
 
 bool AnalyserCore::has_fractures(const OpenDiagnosis& diagnosis) const {
@@ -170,8 +172,10 @@ bool AnalyserCore::take_for_diagnosis(const std::string& payload) {
 }
 
 void AnalyserCore::diagnose() {
-  outputs_.computes.push_back(
-      {.id = fmt::format("diagnose/r{}", diagnosis_->request.round), .kind = "diagnose", .spec = diagnosis_spec()});
+  outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", diagnosis_->request.round),
+                               .kind = "diagnose",
+                               .spec = diagnosis_spec(),
+                               .by_hash = true});
   diagnosis_.reset();
 }
 

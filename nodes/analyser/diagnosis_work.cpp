@@ -8,16 +8,18 @@
 #include "base/expected.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/fracture_plan.hpp"
+#include "diagnosis/kept_emulator.hpp"
 #include "material/extensions.hpp"
 #include "runtime/farm_requests.hpp"
 #include "runtime/journal.hpp"
+#include "store/kept_simulation.hpp"
 
 namespace nacre::analyser {
 namespace {
 
 constexpr std::size_t kFixedFields = 7;
-/// Of simulated curves: as many as a calibration requests, so that the farm has simulated them.
-constexpr int kFracturePoints = runtime::FarmBatch{}.curve_points;
+/// Of curves: as many as the farm keeps.
+constexpr int kFracturePoints = store::kKeptCurvePoints;
 
 DiagnosisTask task_from(const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
@@ -42,6 +44,7 @@ diagnosis::DiagnosisSettings settings_of(const DiagnosisTask& task) {
   settings.bootstraps = task.bootstraps;
   settings.seed = task.seed;
   settings.procedure.curves.fracture_points = kFracturePoints;
+  settings.procedure.emulator.refined_specimens = 1;  // a round does not wait for more
   settings.check_discretisation = false;
   if (task.floor_toml.empty()) return settings;
   settings.floor = diagnosis::modulus_floor_from(task.floor_toml, kSource, task.request.fidelity);
@@ -99,7 +102,9 @@ diagnosis::Diagnosis diagnosis_of(const DiagnosisTask& task) {
   std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   const diagnosis::FracturePlan plan = plan_of(task);
   settings.fractures = simulated_of(task, plan);
-  if (!settings.fractures)
+  if (settings.fractures)
+    settings.fractures->refined = diagnosis::refined_layouts_of(specimens, settings);
+  else
     std::erase_if(specimens, [](const measurement::SpecimenRecord& specimen) {
       return specimen.test == tester::TestKind::toughness;
     });

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/json.hpp"
+#include "diagnosis/kept_emulator.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
 #include "diagnosis/words.hpp"
@@ -37,7 +38,7 @@ struct DiagnoseOptions {
   int search_budget = 40;
   std::uint64_t seed = 1;
   int bootstraps = 2000;
-  bool json = false, plan = false, no_fracture = false;
+  bool json = false, plan = false, no_fracture = false, kept_emulator = false;
 };
 
 /// Orientation, and what is unlike the usual test: " at 90 degrees, at 0.00617 /s, 1.6 mm thick".
@@ -208,6 +209,7 @@ int diagnose(const DiagnoseOptions& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
+  if (options.kept_emulator) settings.fractures = diagnosis::kept_emulator(set.specimens, settings);
   const auto [d, unit_doubts] = offline::diagnose_set(set, settings);
   progress.end();
   warn_all(unit_doubts);
@@ -244,6 +246,11 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("--store", options->store,
                      "File that keeps the fracture simulations, so that an interrupted diagnosis goes on; that of "
                      "nacre calibrate can be used");
+  command
+      .add_flag("--kept-emulator", options->kept_emulator,
+                "Fracture tests at models about --params that do not follow the data: with --store another set of the "
+                "same layouts needs no simulation")
+      ->needs("--params");
   command
       .add_option("--search", options->search_budget,
                   "Most parameter sets tried for the base model of fracture tests; 0: begin at --params")

@@ -3,6 +3,7 @@
 #include "offline/diagnose.hpp"
 #include "background.hpp"
 #include "conversion.hpp"
+#include "diagnosis/kept_emulator.hpp"
 #include "measured.hpp"
 #include "module.hpp"
 #include "parameters.hpp"
@@ -13,7 +14,7 @@ namespace {
 namespace py = pybind11;
 
 py::object diagnose(const py::object& folder, const py::object& params, const py::object& ranges,
-                    const std::string& fidelity, bool fracture, int search, int bootstraps,
+                    const std::string& fidelity, bool fracture, bool kept_emulator, int search, int bootstraps,
                     const py::object& discretisation_floor, const py::object& store, std::int64_t seed,
                     const py::object& progress) {
   require_range("search", search, 0, 1000);
@@ -36,6 +37,7 @@ py::object diagnose(const py::object& folder, const py::object& params, const py
   settings.fracture_discretisation = diagnosis::read_fracture_discretisation(floor, settings.fidelity);
   const auto [found, unit_doubts] = in_background(progress, [&](Watch& watch) {
     settings.progress = [&](double share, std::string_view step) { watch.report(share, step); };
+    if (kept_emulator) settings.fractures = diagnosis::kept_emulator(set.specimens, settings);
     return offline::diagnose_set(set, settings);
   });
   for (const std::string& doubt : unit_doubts) warn(doubt);
@@ -49,6 +51,8 @@ params: initial guess of the base model, as of simulate(). ranges: file with the
     thesis'.
 fidelity, progress: as of simulate().
 fracture: whether fracture tests take part: an hour in place of a minute.
+kept_emulator: fracture tests at models about params that do not follow the data: with store, another set of the same
+    layouts needs no simulation.
 search: most parameter sets tried for the base model of fracture tests, 0 to 1000; 0: begin at params.
 bootstraps: samples behind the thresholds, 1000 to 1,000,000.
 discretisation_floor: file of discretisation errors; None: nacre's.
@@ -63,9 +67,9 @@ Warns of rows that cannot be used. Raises InputError for bad input, KeyboardInte
 void add_diagnose(py::module_& module) {
   const py::none none;
   module.def("diagnose", diagnose, py::arg("set"), py::kw_only(), py::arg("params") = none, py::arg("ranges") = none,
-             py::arg("fidelity") = "preview", py::arg("fracture") = true, py::arg("search") = 40,
-             py::arg("bootstraps") = 2000, py::arg("discretisation_floor") = none, py::arg("store") = none,
-             py::arg("seed") = 1, py::arg("progress") = none, kDiagnose);
+             py::arg("fidelity") = "preview", py::arg("fracture") = true, py::arg("kept_emulator") = false,
+             py::arg("search") = 40, py::arg("bootstraps") = 2000, py::arg("discretisation_floor") = none,
+             py::arg("store") = none, py::arg("seed") = 1, py::arg("progress") = none, kDiagnose);
 }
 
 }  // namespace nacre::python

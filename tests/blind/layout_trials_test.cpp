@@ -18,7 +18,7 @@ blind_trials::TrialDiagnosis diagnosis_of(const std::string& name, std::uint64_t
   blind_trials::TrialOptions options;
   options.program = std::string(NACRE_BINARY_DIR) + "/nacre";
   blind_trials::generate(trial, options, scratch.folder());
-  blind_trials::diagnose(options, scratch.folder());
+  blind_trials::diagnose(trial, options, scratch.folder());
   return blind_trials::open_trial(trial, "", scratch.folder());
 }
 

@@ -99,6 +99,7 @@ def diagnose(
     ranges: Optional[Path] = ...,
     fidelity: str = ...,
     fracture: bool = ...,
+    kept_emulator: bool = ...,
     search: int = ...,
     bootstraps: int = ...,
     discretisation_floor: Optional[Path] = ...,

@@ -138,6 +138,7 @@ tester::Curve fracture_curve(double toughness_pa) {
 
 std::string fracture_of(const std::string& specimen, std::uint64_t bits, double toughness_pa) {
   wire::Measurement m = wire::read<wire::Measurement>(measurement_of(specimen, bits)).value();
+  m.fidelity = tester::Fidelity::tiny;
   m.record.test = tester::TestKind::toughness;
   m.record.modulus_pa.reset();
   m.record.toughness_pa = toughness_pa;
@@ -312,12 +313,20 @@ TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
   EXPECT_THAT(specs, SizeIs(1));
 }
 
+/// For a game of fracture tests, whose diagnoses have this budget.
+game::Scenario with_simulations(int simulations) {
+  game::Scenario scenario;
+  scenario.fidelity = tester::Fidelity::tiny;
+  scenario.diagnosis.simulations = simulations;
+  return scenario;
+}
+
 /// Fracture tests of three designs, and the request to diagnose them after a calibration of nine evaluations.
 std::vector<Message> fractures_to_diagnose() {
   std::vector<Message> messages;
   wire::DiagnoseRequest request;
   request.round = 1;
-  request.fidelity = game::Scenario{}.fidelity;
+  request.fidelity = tester::Fidelity::tiny;
   request.parameters = material::default_parameters();
   for (int k = 0; k < 9; ++k) {
     request.evaluated.push_back({request.parameters, tester::kFirstCalibrationSpecimen + k});
@@ -335,7 +344,7 @@ std::vector<Message> fractures_to_diagnose() {
 TEST(Analyser, FractureTestsAreDiagnosedWithWhatTheFarmSimulates) {
   std::set<std::string> specs;
   for (const bool in_order : {true, false}) {
-    Watched analyser;
+    Watched analyser{.core = AnalyserCore(with_simulations(13 * 3), material::thesis_ranges(), "")};
     for (const Message& message : fractures_to_diagnose()) analyser.receive(message.channel, message.payload);
     ASSERT_THAT(analyser.ids("plan"), ElementsAre("plan/r1"));
     analyser.finish("plan/r1", plan_work(analyser.computes.back().spec));
@@ -364,9 +373,7 @@ TEST(Analyser, FractureTestsAreDiagnosedWithWhatTheFarmSimulates) {
 
 TEST(Analyser, SaysWhatItsSimulationsDoNotPay) {
   const auto summary_with = [](int simulations) {
-    game::Scenario scenario;
-    scenario.diagnosis.simulations = simulations;
-    Watched analyser{.core = AnalyserCore(scenario, material::thesis_ranges(), "")};
+    Watched analyser{.core = AnalyserCore(with_simulations(simulations), material::thesis_ranges(), "")};
     for (const Message& message : fractures_to_diagnose()) analyser.receive(message.channel, message.payload);
     if (!analyser.ids("plan").empty()) analyser.finish("plan/r1", plan_work(analyser.computes.back().spec));
     for (const Message& request : analyser.sent_on("SIMULATE"))

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/kept_emulator.hpp"
 #include "diagnosis/planned_runs.hpp"
 #include "material/effect_library.hpp"
 #include "pattern/random_pattern.hpp"
@@ -153,7 +155,7 @@ TEST(FracturePlan, FewEvaluatedModelsArePaidForFirst) {
   const FracturePlan plan =
       plan_fractures(pulled(material::default_parameters()), evaluated(2), 1000, settings_for_plans());
   const auto base = std::ranges::count_if(plan.wanted, [](const auto& w) { return w.parameters.extensions.empty(); });
-  EXPECT_GE(base, settings_for_plans().procedure.emulator.fewest_base_models);
+  EXPECT_GE(base, settings_for_plans().procedure.emulator.models_in_turn.front());
   EXPECT_FALSE(plan_fractures(pulled(material::default_parameters()), {}, 9 * kBroken, settings_for_plans()).pays())
       << "base models alone would know no effect";
 }
@@ -189,6 +191,38 @@ TEST(FracturePlan, ADiagnosisFromWhatOthersSimulatedNamesWhatActs) {
   const Diagnosis without = diagnose(specimens, own);
   EXPECT_NE(without.verdict, Verdict::base_sufficient) << "it still acts";
   for (const NamedEffect& named : without.effects) EXPECT_NE(named.name, "blunt_notch");
+}
+
+// The testers themselves: a second set of the same layouts costs nothing, and is diagnosed by the same models.
+TEST(KeptEmulator, DoesNotFollowWhatWasMeasuredAndIsSimulatedOnce) {
+  const auto set_of = [](double toughness_pa) {
+    std::vector<measurement::SpecimenRecord> specimens(2);
+    for (std::size_t i = 0; i < specimens.size(); ++i) {
+      specimens[i].specimen = std::to_string(i);
+      specimens[i].design = pattern::Pattern((std::uint64_t{1} << 55) - 1 - i);  // rigid: parts soon
+      specimens[i].test = tester::TestKind::toughness;
+      specimens[i].curve = curve_of(specimens[i].design, material::default_parameters(), 0.0);
+      specimens[i].toughness_pa = toughness_pa;
+    }
+    return specimens;
+  };
+  DiagnosisSettings own = settings_for_plans();
+  own.procedure.emulator.kept_pairs = 1;
+  own.procedure.emulator.refined_specimens = 1;
+  own.store = std::filesystem::temp_directory_path() / "nacre-kept-emulator-test.store";
+  std::filesystem::remove(own.store);
+  const auto first = kept_emulator(set_of(1e5), own), second = kept_emulator(set_of(2e5), own);
+  ASSERT_TRUE(first && second);
+  EXPECT_GT(first->simulations, 0);
+  EXPECT_EQ(second->simulations, 0);
+  ASSERT_EQ(first->runs.size(), second->runs.size());
+  for (std::size_t k = 0; k < first->runs.size(); ++k) {
+    EXPECT_EQ(first->runs[k].parameters, second->runs[k].parameters);
+    EXPECT_EQ(first->runs[k].predictions.back().toughness_pa, second->runs[k].predictions.back().toughness_pa);
+  }
+  EXPECT_EQ(first->refined.size(), 2u);
+  EXPECT_FALSE(kept_emulator({}, own)) << "nothing is broken";
+  std::filesystem::remove(own.store);
 }
 
 }  // namespace
