@@ -141,6 +141,7 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();
   centre.toughness = search.best;
+  if (has_fractures && settings.fractures) centre.toughness = settings.fractures->centre.value_or(centre.toughness);
   const Basis basis = basis_for(observations, centre, settings.ranges, procedure.constants);
   Data data{observations,
             fractures,

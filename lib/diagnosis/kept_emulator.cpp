@@ -35,7 +35,9 @@ Observations observed(const std::vector<measurement::SpecimenRecord>& specimens,
 }
 
 std::vector<RefinedLayout> refined(const FractureTests& tests, const DiagnosisSettings& settings) {
-  return tests.refined_layouts(base_of(settings.start), settings.procedure.curves, settings.procedure.emulator);
+  material::ParameterSet at = base_of(settings.start);
+  if (settings.fractures) at.toughness = settings.fractures->centre.value_or(at.toughness);
+  return tests.refined_layouts(at, settings.procedure.curves, settings.procedure.emulator);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace nacre::diagnosis {
 std::optional<SimulatedFractures> kept_emulator(const std::vector<measurement::SpecimenRecord>& specimens,
                                                 const DiagnosisSettings& settings);
 
-/// Only the layouts on half elements, at settings.start: what no farm simulates.
+/// Only the layouts on half elements, at the centre of settings.fractures: what no farm simulates.
 std::vector<RefinedLayout> refined_layouts_of(const std::vector<measurement::SpecimenRecord>& specimens,
                                               const DiagnosisSettings& settings);
 

@@ -71,6 +71,7 @@ struct EmulatorRules {
   std::array<double, 2> effect_sizes{0.2, 0.5};                 ///< at which effects are run, as shares of their range
   double jitter = 0.15;                                         ///< of eta meanwhile, in log units
   std::array<int, 4> models_in_turn{9, 25, 41, 61};             ///< base models of an emulator on a budget, in all
+  int near_pairs = 1;                                           ///< about the first fit of these
   std::array<double, 4> sizes_in_turn{0.35, -0.35, 0.15, 0.6};  ///< of its effects, beside them
   int kept_pairs = 100;                                         ///< of a kept emulator: opposite runs about the centre
   double kept_spread = 0.4;                                     ///< of these

@@ -57,6 +57,7 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("effect_sizes", m.effect_sizes);
   field("jitter", m.jitter);
   field("models_in_turn", m.models_in_turn);
+  field("near_pairs", m.near_pairs);
   field("sizes_in_turn", m.sizes_in_turn);
   field("kept_pairs", m.kept_pairs);
   field("kept_spread", m.kept_spread);

@@ -25,6 +25,7 @@ struct SimulatedFractures {
   std::vector<std::string> unaffordable;    ///< effects on fracture tests that none shows: no candidates
   std::vector<RefinedLayout> refined = {};  ///< layouts on half elements; none: the table of floors says it all
   int simulations = 0;                      ///< done for it in this process
+  std::optional<material::ToughnessParameters> centre = {};  ///< about which they lie; nothing: the start
 };
 
 struct DiagnosisSettings {

@@ -124,7 +124,11 @@ void AnalyserCore::diagnose_when_complete() {
   diagnosis_ = OpenDiagnosis{
       .request = *std::exchange(waiting_diagnosis_, std::nullopt), .awaited = {}, .simulated = {}, .collector = {}};
   if (scenario_.diagnosis.simulations == 0 || !has_fractures(*diagnosis_)) return diagnose();
-  outputs_.computes.push_back({.id = fmt::format("plan/r{}", diagnosis_->request.round),
+  plan_diagnosis();
+}
+
+void AnalyserCore::plan_diagnosis() {
+  outputs_.computes.push_back({.id = fmt::format("plan/r{}/{}", diagnosis_->request.round, diagnosis_->plans++),
                                .kind = "plan",
                                .spec = diagnosis_spec(),
                                .by_hash = true});
@@ -167,7 +171,7 @@ bool AnalyserCore::take_for_diagnosis(const std::string& payload) {
   diagnosis_->simulated.emplace(std::pair(part.request_id, part.chunk), payload);
   const std::string request_id = part.request_id;
   if (diagnosis_->collector.add(std::move(part))) diagnosis_->awaited.erase(request_id);
-  if (diagnosis_->awaited.empty()) diagnose();
+  if (diagnosis_->awaited.empty()) plan_diagnosis();
   return true;
 }
 

@@ -34,6 +34,7 @@ class AnalyserCore : public runtime::NodeCore {
   /// A diagnosis whose measurements are complete.
   struct OpenDiagnosis {
     wire::DiagnoseRequest request;
+    int plans = 0;                                                 ///< that were asked for
     std::set<std::string> awaited;                                 ///< ids of requests
     std::map<std::pair<std::string, int>, std::string> simulated;  ///< payloads by request id and chunk
     wire::ResponseCollector collector;
@@ -49,6 +50,7 @@ class AnalyserCore : public runtime::NodeCore {
   void diagnose_when_complete();
   bool has_fractures(const OpenDiagnosis& diagnosis) const;
   std::string diagnosis_spec() const;
+  void plan_diagnosis();
   void request_for_diagnosis(const std::string& plan);
   bool take_for_diagnosis(const std::string& payload);
   void diagnose();

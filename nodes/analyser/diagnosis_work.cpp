@@ -62,54 +62,73 @@ std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task)
   return specimens;
 }
 
-diagnosis::FracturePlan plan_of(const DiagnosisTask& task) {
-  return diagnosis::plan_fractures(specimens_of(task), task.request.evaluated, task.simulations, settings_of(task));
-}
-
-runtime::FarmBatch batch_of(const diagnosis::FracturePlan& plan, const wire::DiagnoseRequest& request) {
+runtime::FarmBatch batch_of(const diagnosis::FracturePlan& plan, const wire::DiagnoseRequest& request,
+                            std::size_t stage) {
   return {.requester = "analyser",
-          .label = fmt::format("r{}/diagnosis", request.round),
+          .label = fmt::format("r{}/diagnosis{}", request.round, stage),
           .wanted = plan.wanted,
           .measured = plan.measured,
           .fidelity = request.fidelity,
           .curve_points = kFracturePoints};
 }
 
-/// What the farm simulated; nothing where no plan was made.
-std::optional<diagnosis::SimulatedFractures> simulated_of(const DiagnosisTask& task,
-                                                          const diagnosis::FracturePlan& plan) {
-  if (task.simulated.empty()) return std::nullopt;
-  runtime::FarmRequests farm;
-  (void)farm.ask(batch_of(plan, task.request));
-  for (const std::string& payload : task.simulated) farm.take(expected(wire::read<wire::SimulateResult>(payload)));
-  return diagnosis::simulated_fractures(plan, farm.predictions());
+/// Plans that the farm has simulated, and the next one.
+struct Fractures {
+  std::vector<diagnosis::SimulatedPlan> done;
+  std::optional<diagnosis::FracturePlan> next;
+};
+
+/// Whether the farm's responses to all of a plan are there.
+bool take_responses(const DiagnosisTask& task, runtime::FarmRequests& farm, const diagnosis::FracturePlan& plan,
+                    std::size_t stage) {
+  bool complete = farm.ask(batch_of(plan, task.request, stage)).empty();
+  for (const std::string& payload : task.simulated)
+    complete = farm.take(expected(wire::read<wire::SimulateResult>(payload))) || complete;
+  return complete;
+}
+
+Fractures fractures_of(const DiagnosisTask& task, const std::vector<measurement::SpecimenRecord>& specimens,
+                       const diagnosis::DiagnosisSettings& settings) {
+  Fractures fractures;
+  while ((fractures.next = diagnosis::next_fractures(specimens, task.request.evaluated, task.simulations, settings,
+                                                     fractures.done))) {
+    runtime::FarmRequests farm;
+    if (!take_responses(task, farm, *fractures.next, fractures.done.size())) break;
+    fractures.done.push_back({*std::move(fractures.next), farm.predictions()});
+  }
+  return fractures;
 }
 
 /// What the budget of simulations does not pay, as a further sentence of the summary.
-std::string unaffordable_in_words(const diagnosis::FracturePlan& plan, int simulations) {
-  const std::string budget = fmt::format("diagnosis.simulations of {}", simulations);
-  if (!plan.pays() && !plan.measured.empty())
-    return fmt::format(" Fracture tests are left out: {} does not pay for their simulation.", budget);
-  if (plan.unaffordable.empty()) return {};
-  std::vector<std::string> names = plan.unaffordable;
+std::string unaffordable_in_words(const std::vector<std::string>& effects, int simulations) {
+  if (effects.empty()) return {};
+  std::vector<std::string> names = effects;
   for (std::string& name : names) std::ranges::replace(name, '_', ' ');
-  return fmt::format(" Not weighed, since {} does not pay for it: {}.", budget, fmt::join(names, ", "));
+  return fmt::format(" Not weighed, since diagnosis.simulations of {} does not pay for it: {}.", simulations,
+                     fmt::join(names, ", "));
 }
+
+bool is_fracture(const measurement::SpecimenRecord& specimen) { return specimen.test == tester::TestKind::toughness; }
 
 /// A fracture test takes minutes to diagnose where the farm has not simulated it.
 diagnosis::Diagnosis diagnosis_of(const DiagnosisTask& task) {
   diagnosis::DiagnosisSettings settings = settings_of(task);
   std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
-  const diagnosis::FracturePlan plan = plan_of(task);
-  settings.fractures = simulated_of(task, plan);
-  if (settings.fractures)
+  const bool has_fractures = std::ranges::any_of(specimens, is_fracture);
+  const std::vector<diagnosis::SimulatedPlan> done = fractures_of(task, specimens, settings).done;
+  std::string left_out;
+  if (done.empty()) {
+    std::erase_if(specimens, is_fracture);
+    if (has_fractures)
+      left_out = fmt::format(" Fracture tests are left out: diagnosis.simulations of {} does not pay for them.",
+                             task.simulations);
+  } else {
+    settings.fractures = diagnosis::simulated_fractures(done);
     settings.fractures->refined = diagnosis::refined_layouts_of(specimens, settings);
-  else
-    std::erase_if(specimens, [](const measurement::SpecimenRecord& specimen) {
-      return specimen.test == tester::TestKind::toughness;
-    });
+    left_out = unaffordable_in_words(settings.fractures->unaffordable, task.simulations);
+  }
   diagnosis::Diagnosis diagnosis = diagnosis::diagnose_or_say_why_not(specimens, settings);
-  diagnosis.summary += unaffordable_in_words(plan, task.simulations);
+  diagnosis.summary += left_out;
   return diagnosis;
 }
 
@@ -159,10 +178,12 @@ std::string plan_work(const std::string& spec) {
   const DiagnosisTask task = task_from(spec);
   std::vector<std::string> requests;
   try {
-    const diagnosis::FracturePlan plan = plan_of(task);
+    const Fractures fractures = fractures_of(task, specimens_of(task), settings_of(task));
     runtime::FarmRequests farm;
-    for (const wire::SimulateRequest& request : farm.ask(batch_of(plan, task.request)))
-      requests.push_back(wire::write(request));
+    if (fractures.next)
+      for (const wire::SimulateRequest& request :
+           farm.ask(batch_of(*fractures.next, task.request, fractures.done.size())))
+        requests.push_back(wire::write(request));
   } catch (const std::runtime_error&) {  // the diagnosis says what is wrong with these measurements
   }
   return runtime::pack(requests);

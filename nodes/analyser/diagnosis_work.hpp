@@ -26,11 +26,12 @@ struct DiagnosisTask {
 /// Spec of "plan" and "diagnose".
 std::string diagnosis_spec(const DiagnosisTask& task);
 
-/// The payloads of the SIMULATEs that the diagnosis wants responses to first, packed (runtime::pack); none where there
-/// are no fracture tests, or too few simulations for them.
+/// The payloads of the SIMULATEs that the diagnosis wants responses to next, packed (runtime::pack): some of them
+/// follow what others have taught. None where it has all, where there are no fracture tests, or too few simulations for
+/// them.
 std::string plan_work(const std::string& spec);
 
-/// The payload of the DIAGNOSIS. Without responses to what plan_work() wants it looks at no fracture tests.
+/// The payload of the DIAGNOSIS. Without any responses to what plan_work() wants it looks at no fracture tests.
 std::string diagnose_work(const std::string& spec);
 
 }  // namespace nacre::analyser

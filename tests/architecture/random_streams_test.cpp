@@ -25,6 +25,7 @@ const std::map<std::string, std::uint64_t> kFirstDraws = {
     {"calibration of round {}", 3784075993506983070U},
     {"clock/{}/{}", 3614438228195398888U},
     {"dense sampling of ", 15782769383603131073U},
+    {"diagnosis/fractures {}", 1190706786887560298U},
     {"diagnosis/kept emulator", 15625020678285821195U},
     {"diagnosis/runs", 14538325407690868142U},
     {"explore/barred", 12786851038266922844U},
