@@ -43,12 +43,12 @@ std::string small(int samples, int designs, int random_patterns) {
   return fmt::format(fmt::runtime(kSmall), samples, designs, random_patterns);
 }
 
-/// Everything by itself: the virtual laboratory, two refits, a diagnosis in each round, with fracture tests in the
-/// second.
+/// Everything by itself: the virtual laboratory, two refits, a diagnosis in each round, with fracture tests as far
+/// as sixteen simulations pay.
 fs::path laboratory_game(const fs::path& folder) {
   const fs::path scenario = folder / "laboratory.toml";
   std::ofstream(scenario) << "name = \"laboratory\"\nrounds = 2\nstop_at_equilibrium = false\n" + small(8, 1, 0) +
-                                 "replicates = 1\nmixtures = []\n[diagnosis]\nbootstraps = 1000\nsimulations = 40\n";
+                                 "replicates = 1\nmixtures = []\n[diagnosis]\nbootstraps = 1000\nsimulations = 16\n";
   PlayedGame game(scenario, folder / "logs", "laboratory");
   if (!game.play_to_end(kPatienceS) || game.status() != 0) throw InputError(game.said());
   return game.folder();
