@@ -44,7 +44,7 @@ Scenario with_nothing_at_its_default() {
   s.farm = {"slurm", {"--partition=a b", "--time=\"5\""}, 7};
   s.proposal = {"random", 17, 5, 4, 3, 2};
   s.validation = {1, 2, 1, 4, 5, 6, {0.0, 1.0 / 3.0, 1.0}, true};
-  s.diagnosis = {false, 1, 1234};
+  s.diagnosis = {false, 1, 1234, 7};
   s.families = {true, 3, 17, 5, 6, 7};
   s.budget = {1000, 5000};
   s.laboratory = {false, "lab.toml", 2.5, 7.0, 490.0, 390.0};
