@@ -76,6 +76,7 @@ runtime::FarmBatch batch_of(const diagnosis::FracturePlan& plan, const wire::Dia
 struct Fractures {
   std::vector<diagnosis::SimulatedPlan> done;
   std::optional<diagnosis::FracturePlan> next;
+  std::string broke;  ///< why no plan could be made; empty: nothing is wrong
 };
 
 /// Whether the farm's responses to all of a plan are there.
@@ -90,11 +91,16 @@ bool take_responses(const DiagnosisTask& task, runtime::FarmRequests& farm, cons
 Fractures fractures_of(const DiagnosisTask& task, const std::vector<measurement::SpecimenRecord>& specimens,
                        const diagnosis::DiagnosisSettings& settings) {
   Fractures fractures;
-  while ((fractures.next = diagnosis::next_fractures(specimens, task.request.evaluated, task.simulations, settings,
-                                                     fractures.done))) {
-    runtime::FarmRequests farm;
-    if (!take_responses(task, farm, *fractures.next, fractures.done.size())) break;
-    fractures.done.push_back({*std::move(fractures.next), farm.predictions()});
+  try {
+    while ((fractures.next = diagnosis::next_fractures(specimens, task.request.evaluated, task.simulations, settings,
+                                                       fractures.done))) {
+      runtime::FarmRequests farm;
+      if (!take_responses(task, farm, *fractures.next, fractures.done.size())) break;
+      fractures.done.push_back({*std::move(fractures.next), farm.predictions()});
+    }
+  } catch (const std::runtime_error& error) {
+    // Measurements come from people: fracture tests that break a fit must not take the moduli with them.
+    fractures = {.done = {}, .next = {}, .broke = error.what()};
   }
   return fractures;
 }
@@ -115,15 +121,16 @@ diagnosis::Diagnosis diagnosis_of(const DiagnosisTask& task) {
   diagnosis::DiagnosisSettings settings = settings_of(task);
   std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   const bool has_fractures = std::ranges::any_of(specimens, is_fracture);
-  const std::vector<diagnosis::SimulatedPlan> done = fractures_of(task, specimens, settings).done;
+  const Fractures fractures = fractures_of(task, specimens, settings);
   std::string left_out;
-  if (done.empty()) {
+  if (fractures.done.empty()) {
     std::erase_if(specimens, is_fracture);
-    if (has_fractures)
-      left_out = fmt::format(" Fracture tests are left out: diagnosis.simulations of {} does not pay for them.",
-                             task.simulations);
+    const std::string why = fractures.broke.empty()
+                                ? fmt::format("diagnosis.simulations of {} does not pay for them", task.simulations)
+                                : fractures.broke;
+    if (has_fractures) left_out = fmt::format(" Fracture tests are left out: {}.", why);
   } else {
-    settings.fractures = diagnosis::simulated_fractures(done);
+    settings.fractures = diagnosis::simulated_fractures(fractures.done);
     settings.fractures->refined = diagnosis::refined_layouts_of(specimens, settings);
     left_out = unaffordable_in_words(settings.fractures->unaffordable, task.simulations);
   }
@@ -177,15 +184,12 @@ std::string diagnosis_spec(const DiagnosisTask& task) {
 std::string plan_work(const std::string& spec) {
   const DiagnosisTask task = task_from(spec);
   std::vector<std::string> requests;
-  try {
-    const Fractures fractures = fractures_of(task, specimens_of(task), settings_of(task));
-    runtime::FarmRequests farm;
-    if (fractures.next)
-      for (const wire::SimulateRequest& request :
-           farm.ask(batch_of(*fractures.next, task.request, fractures.done.size())))
-        requests.push_back(wire::write(request));
-  } catch (const std::runtime_error&) {  // the diagnosis says what is wrong with these measurements
-  }
+  const Fractures fractures = fractures_of(task, specimens_of(task), settings_of(task));
+  runtime::FarmRequests farm;
+  if (fractures.next)
+    for (const wire::SimulateRequest& request :
+         farm.ask(batch_of(*fractures.next, task.request, fractures.done.size())))
+      requests.push_back(wire::write(request));
   return runtime::pack(requests);
 }
 

@@ -147,12 +147,12 @@ std::string fracture_of(const std::string& specimen, std::uint64_t bits, double 
 }
 
 /// The farm's response to all that a request asks for.
-std::vector<std::string> responses_to(const Message& request) {
+std::vector<std::string> responses_to(const Message& request, const std::string& failure = "") {
   const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
   std::vector<wire::SimulatedDesign> results;
   for (const pattern::Design& design : asked.designs)
     results.push_back({.design = design,
-                       .failure = "",
+                       .failure = failure,
                        .modulus_pa = 1e9,
                        .toughness_pa = 1e5,
                        .peak_stress_pa = 1e7,
@@ -342,7 +342,7 @@ std::vector<Message> fractures_to_diagnose() {
 }
 
 /// Plans and responses in turn until the diagnosis is asked for; its spec.
-std::string spec_of_diagnosis(int simulations, bool in_order = true) {
+std::string spec_of_diagnosis(int simulations, bool in_order = true, const std::string& failure = "") {
   Watched analyser{.core = AnalyserCore(with_simulations(simulations), material::thesis_ranges(), "")};
   for (const Message& message : fractures_to_diagnose()) analyser.receive(message.channel, message.payload);
   std::size_t answered = 0;
@@ -356,7 +356,7 @@ std::string spec_of_diagnosis(int simulations, bool in_order = true) {
     for (const Message& request : requests) {
       EXPECT_TRUE(wire::find_channel("SIMULATE")->validate(request.payload)) << "every receiver would drop it";
       EXPECT_EQ(analyser.core.status().phase, "waiting for fracture tests to diagnose with");
-      for (const std::string& response : responses_to(request))
+      for (const std::string& response : responses_to(request, failure))
         for (int twice = 0; twice < 2; ++twice) analyser.receive("SIMULATED", response);
     }
   }
@@ -374,6 +374,11 @@ TEST(Analyser, FractureTestsAreDiagnosedWithWhatTheFarmSimulates) {
     return found != diagnosis.candidates.end() && found->status != "not_applicable";
   };
   EXPECT_TRUE(weighed("toe_slack")) << "acts on nothing else: " << diagnosis.summary;
+}
+
+TEST(Analyser, SimulationsThatAllFailEndNoGame) {
+  const std::string spec = spec_of_diagnosis(16 * 3, true, "J <= 0");
+  EXPECT_FALSE(wire::read<wire::Diagnosis>(diagnose_work(spec)).value().summary.empty());
 }
 
 TEST(Analyser, SaysWhatItsSimulationsDoNotPay) {
