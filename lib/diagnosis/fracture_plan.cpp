@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ std::vector<const material::Effect*> in_turn() {
 
 std::vector<std::size_t> all_items(const FracturePlan& plan) {
   std::vector<std::size_t> items(plan.measured.size());
-  for (std::size_t i = 0; i < items.size(); ++i) items[i] = i;
+  std::iota(items.begin(), items.end(), std::size_t{0});
   return items;
 }
 
@@ -164,6 +165,7 @@ material::ParameterSet fitted_base(std::vector<measurement::SpecimenRecord> spec
 std::optional<FracturePlan> next_fractures(const std::vector<measurement::SpecimenRecord>& specimens,
                                            const std::vector<sysid::EvaluatedModel>& evaluated, int simulations,
                                            const DiagnosisSettings& settings, const std::vector<SimulatedPlan>& done) {
+  if (done.size() == kStages) return std::nullopt;
   const EmulatorRules& rules = settings.procedure.emulator;
   FracturePlan plan{.measured = fracture_groups(observe(specimens, settings.floor.log_modulus_sd,
                                                         settings.fracture_discretisation, settings.procedure))
@@ -172,7 +174,7 @@ std::optional<FracturePlan> next_fractures(const std::vector<measurement::Specim
                     .centre = settings.start,
                     .unaffordable = {}};
   Account account = account_of(evaluated, simulations, done);
-  if (plan.measured.empty() || done.size() == kStages) return std::nullopt;
+  if (plan.measured.empty()) return std::nullopt;
   if (done.empty() && least_cost(plan, account, rules) > simulations) return std::nullopt;
   RandomStream random(settings.seed, fmt::format("diagnosis/fractures {}", done.size()));
   Purse purse(plan, account.simulations, account.first_free);
