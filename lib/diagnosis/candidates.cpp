@@ -16,6 +16,10 @@ bool holds(const std::vector<FittedModel>& fits, const std::string& effect) {
   });
 }
 
+bool is_unaffordable(const DiagnosisSettings& settings, const material::Effect& effect) {
+  return settings.fractures && std::ranges::count(settings.fractures->unaffordable, effect.name) > 0;
+}
+
 /// The smallest parameter of effect k whose signature is visible in these data, beyond what the base imitates.
 std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, double usual_signal,
                                     const Whitener& whitener) {
@@ -69,6 +73,7 @@ std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decis
     candidate.name = effect.name;
     const auto found = std::find(evidence.effects.begin(), evidence.effects.end(), effect.name);
     if (found == evidence.effects.end()) {
+      if (is_unaffordable(evidence.settings, effect)) candidate.status = CandidateStatus::not_simulated;
       candidates.push_back(candidate);
       continue;
     }

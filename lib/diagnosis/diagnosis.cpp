@@ -28,6 +28,8 @@ std::string_view to_string(CandidateStatus status) {
       return "excluded";
     case CandidateStatus::invisible:
       return "invisible";
+    case CandidateStatus::not_simulated:
+      return "not_simulated";
     case CandidateStatus::not_applicable:
       break;
   }

@@ -84,9 +84,15 @@ enum class CandidateStatus {
   in_set,          ///< explains the data
   excluded,        ///< would be seen, or was, and does not explain them
   invisible,       ///< these specimens would not show it
+  not_simulated,   ///< acts on their fracture tests, of which no simulation shows it: too many are asked for
   not_applicable,  ///< acts on none of their tests
 };
 std::string_view to_string(CandidateStatus status);
+
+/// Whether fits with and without the effect were compared.
+inline bool was_weighed(CandidateStatus status) {
+  return status != CandidateStatus::not_simulated && status != CandidateStatus::not_applicable;
+}
 
 /// One of the known effects, and how it fared.
 struct CandidateEffect {

@@ -150,7 +150,8 @@ Exhibit cause_exhibit(const Diagnosis& d) {
 std::string status_cell(const CandidateEffect& c, Verdict verdict) {
   const std::string status = escaped(status_in_words(to_string(c.status), c.p_family_wise));
   if (c.status == CandidateStatus::in_set) return fmt::format("<strong>{}</strong>", status);
-  if (c.status == CandidateStatus::invisible) return status + " (it may act all the same)";
+  if (c.status == CandidateStatus::invisible || c.status == CandidateStatus::not_simulated)
+    return status + " (it may act all the same)";
   if (c.status != CandidateStatus::excluded) return status + " (these tests cannot show it)";
   if (c.p_family_wise > diagnosis::Levels{}.name) return status;
   return status + (verdict == Verdict::unexplained ? " (improves the fit, not enough)"
@@ -185,7 +186,7 @@ ExhibitTable candidate_table(const Diagnosis& d) {
                   {"", "chance", "Probability that the best of all candidates does as well by accident"}}};
   table.look = "words wrapped";
   for (const CandidateEffect& c : d.candidates) {
-    const bool acts = c.status != CandidateStatus::not_applicable;
+    const bool acts = diagnosis::was_weighed(c.status);
     table.add({shown_cell(effect_name(c.name)), shown_cell(status_cell(c, d.verdict)),
                shown_cell(acts ? figure(c.signal_to_noise) : "–"), shown_cell(acts ? percent(c.absorption) : "–"),
                shown_cell(visible_from(c)),

@@ -34,14 +34,15 @@ ExhibitTable candidate_table(const std::vector<wire::DiagnosedCandidate>& candid
           {"", "status",
            "explains it: with this effect the model agrees with the measurements. does not explain it: the fit "
            "improves, but other effects explain more, or none enough. no sign of it: it would have shown. these tests "
-           "cannot say: it may act, these specimens would not show it"},
+           "cannot say: it may act, these specimens would not show it. not simulated: it may act, and too few "
+           "simulations were paid for to tell"},
           {"", "improvement of fit (chi squared)",
            "How much chi squared falls when the effect joins the refitted base model"},
           {"", "chance", "Probability that the best of all candidates does as well when the base model is true"},
           {"", "imitated by base model", "Share of the effect's signature that refitted base parameters imitate"}}};
   table.look = "named";
   for (const wire::DiagnosedCandidate& c : candidates) {
-    const bool was_fitted = c.status != "not_applicable";
+    const bool was_fitted = c.status != "not_applicable" && c.status != "not_simulated";
     const std::string status = escaped(status_in_words(c.status, c.p_family_wise));
     table.add({shown_cell(effect_name(c.name)),
                shown_cell(c.status == "in_set" ? fmt::format("<strong>{}</strong>", status) : status),
@@ -86,6 +87,7 @@ std::string verdict_in_words(const std::string& verdict) {
 std::string status_in_words(std::string_view status, double p_family_wise) {
   if (status == "in_set") return "explains it";
   if (status == "excluded") return p_family_wise <= diagnosis::Levels{}.name ? "does not explain it" : "no sign of it";
+  if (status == "not_simulated") return "not simulated";
   if (status == "invisible" || status == "not_applicable") return "these tests cannot say";
   return std::string(status);
 }

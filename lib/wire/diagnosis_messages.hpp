@@ -67,7 +67,8 @@ struct DiagnosedEffect {
 
 /// The outcome of one candidate effect of the library.
 struct DiagnosedCandidate {
-  static constexpr std::string_view kStatuses[] = {"in_set", "excluded", "invisible", "not_applicable"};
+  static constexpr std::string_view kStatuses[] = {"in_set", "excluded", "invisible", "not_simulated",
+                                                   "not_applicable"};
   std::string name;
   std::string status;
   double statistic = 0.0;      ///< improvement of the joint refit

@@ -58,7 +58,7 @@ void print_candidates(const diagnosis::Diagnosis& d) {
   std::string unseen;
   bool is_first = true;
   for (const diagnosis::CandidateEffect& c : d.candidates) {
-    if (c.status == diagnosis::CandidateStatus::not_applicable) {
+    if (!diagnosis::was_weighed(c.status)) {
       unseen += (unseen.empty() ? "" : ", ") + material::effect_in_words(c.name);
       continue;
     }

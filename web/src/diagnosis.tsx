@@ -45,6 +45,7 @@ const STATUS: Record<string, { text: string; hint: string }> = {
     text: "these tests cannot say",
     hint: "Its signature is too weak to be told from noise. It may be there all the same.",
   },
+  not_simulated: { text: "not simulated", hint: "It may act. diagnosis.simulations does not pay for telling." },
   not_applicable: { text: "these tests cannot say", hint: "No specimen and test of this set would show it." },
 };
 
@@ -56,7 +57,7 @@ function statusOf(c: CandidateEffect) {
 }
 
 /** A number of a candidate effect; a dash for one that these specimens cannot show. */
-const weighed = (candidate: CandidateEffect, text: string) => (candidate.status === "not_applicable" ? "–" : text);
+const weighed = (candidate: CandidateEffect, text: string) => (candidate.status.startsWith("not_") ? "–" : text);
 
 /** A parameter with its 90 % interval on a scale from 0. */
 function Interval({ effect }: { effect: Effect }) {

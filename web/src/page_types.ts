@@ -483,7 +483,7 @@ export interface Effect {
 
 export interface CandidateEffect {
   name: string;
-  status: "in_set" | "excluded" | "invisible" | "not_applicable";
+  status: "in_set" | "excluded" | "invisible" | "not_simulated" | "not_applicable";
   statistic: number;
   p_family_wise: number;
   absorption: number;

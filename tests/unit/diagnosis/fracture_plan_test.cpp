@@ -221,6 +221,9 @@ TEST(FracturePlan, ADiagnosisFromWhatOthersSimulatedNamesWhatActs) {
   const Diagnosis without = diagnose(specimens, own);
   EXPECT_NE(without.verdict, Verdict::base_sufficient) << "it still acts";
   for (const NamedEffect& named : without.effects) EXPECT_NE(named.name, "blunt_notch");
+  const auto candidate = std::ranges::find(without.candidates, "blunt_notch", &CandidateEffect::name);
+  ASSERT_NE(candidate, without.candidates.end());
+  EXPECT_EQ(candidate->status, CandidateStatus::not_simulated);
 }
 
 // The testers themselves: a second set of the same layouts costs nothing, and is diagnosed by the same models.
