@@ -141,7 +141,8 @@ TEST(Fields, AnErrorNamesTheFieldTheValueAndWhatIsAllowed) {
   Diagnosis diagnosis = samples::diagnosis();
   diagnosis.candidates[0].status = "guilty";
   EXPECT_EQ(error_of(diagnosis),
-            "diagnosis_t: candidates[0].status: \"guilty\", expected in_set, excluded, invisible, not_simulated or not_applicable");
+            "diagnosis_t: candidates[0].status: \"guilty\", expected in_set, excluded, invisible, not_simulated or "
+            "not_applicable");
   Fracture fracture = samples::fracture();
   fracture.crack.path->material = {0.5, 0.5, 0.25};
   EXPECT_EQ(error_of(fracture), "fracture_t: material_share: the sum is 1.25, expected 1");
