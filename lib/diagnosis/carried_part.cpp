@@ -72,6 +72,7 @@ Observations observations_of(const Observations& all, const std::vector<Eigen::I
   if (all.fracture_change.size() > 0) part.fracture_change = all.fracture_change(rows, Eigen::all);
   part.levels.resize(0, 0);
   if (all.emulator_variance.size() > 0) part.emulator_variance = all.emulator_variance(rows);
+  if (all.emulator_shared.size() > 0) part.emulator_shared = all.emulator_shared(rows, Eigen::all);
   return part;
 }
 

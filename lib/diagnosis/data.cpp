@@ -63,19 +63,23 @@ Eigen::VectorXd fracture_change(const Observations& observations, const std::vec
   return change;
 }
 
-/// What the runs teach, and its error as variances of the rows.
+/// What the runs teach.
 std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
                                                       const EmulatorRules& rules) {
   return std::make_shared<const FractureSurface>(data.observations, data.fracture_groups, data.runs,
                                                  basis.centre.toughness, rules);
 }
 
-Eigen::VectorXd emulator_variance(const Observations& observations, const FractureSurface& surface,
-                                  const material::ParameterSet& at) {
-  const Eigen::VectorXd own = surface.mean_variance(at);
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(observations.size());
-  for (std::size_t k = 0; k < surface.rows().size(); ++k) variance[surface.rows()[k].row] = own[k];
-  return variance;
+/// Observations that know the error of the surface at these parameters.
+void take_emulator_error(Observations& observations, const FractureSurface& surface, const material::ParameterSet& at) {
+  const ErrorOfMean error = surface.error_of_mean(at);
+  observations.emulator_variance = Eigen::VectorXd::Zero(observations.size());
+  observations.emulator_shared = Eigen::MatrixXd::Zero(observations.size(), error.shared.cols());
+  for (std::size_t k = 0; k < surface.rows().size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    observations.emulator_variance[surface.rows()[k].row] = error.own[row];
+    observations.emulator_shared.row(surface.rows()[k].row) = error.shared.row(row);
+  }
 }
 
 /// Error of a surface at a run that it has not learnt from, in its own standard deviations.
@@ -160,7 +164,7 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
     data.runs = fractures ? runs_around(*fractures, std::move(search.runs), basis, settings) : settings.fractures->runs;
     const auto surface = learnt_surface(data, basis, procedure.emulator);
     data.model = data.model.with_surface(surface);
-    data.observations.emulator_variance = emulator_variance(data.observations, *surface, basis.centre);
+    take_emulator_error(data.observations, *surface, basis.centre);
   }
   data.effects = acting_effects(data.model, data.observations, settings);
   return data;
@@ -178,8 +182,7 @@ LearntData learnt_at(const Data& data, const std::vector<material::ParameterSet>
   }
   if (learnt.data.runs.size() > data.runs.size())
     learnt.data.model = data.model.with_surface(learnt_surface(learnt.data, data.model.basis(), rules));
-  learnt.data.observations.emulator_variance =
-      emulator_variance(data.observations, *learnt.data.model.surface(), sets.front());
+  take_emulator_error(learnt.data.observations, *learnt.data.model.surface(), sets.front());
   return learnt;
 }
 

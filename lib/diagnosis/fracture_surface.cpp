@@ -17,6 +17,20 @@ namespace {
 
 double matern52_at(double distance) { return matern52(std::sqrt(5.0) * distance); }
 
+/// The mean over the columns and the leading principal components of what it leaves, `count` in all: columns x count,
+/// orthonormal.
+Eigen::MatrixXd mean_and_components(const Eigen::MatrixXd& values, Eigen::Index count) {
+  const Eigen::Index columns = values.cols();
+  Eigen::MatrixXd basis(columns, count);
+  if (count == 0) return basis;
+  basis.col(0).setConstant(1.0 / std::sqrt(static_cast<double>(columns)));
+  Eigen::MatrixXd left = values.rowwise() - values.colwise().mean();
+  left.colwise() -= Eigen::VectorXd(left.rowwise().mean());
+  const Eigen::BDCSVD<Eigen::MatrixXd> parts(left, Eigen::ComputeThinV);
+  basis.rightCols(count - 1) = parts.matrixV().leftCols(count - 1);
+  return basis;
+}
+
 int library_index(std::string_view name) {
   const auto library = material::effect_library();
   const auto found =
@@ -94,9 +108,7 @@ Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const s
 /// Amplitude of every effect: root mean square over its runs of their changes beyond the base, per unit of the effect's
 /// own deviation.
 void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const {
-  std::vector<int> base;
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
+  const std::vector<int> base = base_runs();
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, base));
   const Eigen::MatrixXd weights = factor.solve(centred(base, Eigen::all));
   // Sums, not ratios: a run with hardly any of the effect hardly informs its amplitude.
@@ -162,14 +174,19 @@ std::vector<int> FractureSurface::half_nearest_to_the_centre() const {
   return order;
 }
 
-FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
-  Learnt learnt{rows, {}, values.colwise().mean(), {}, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
-  Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
-  const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
-  centred /= spread;
+std::vector<int> FractureSurface::base_runs() const {
   std::vector<int> base;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
+  return base;
+}
+
+FractureSurface::Learnt FractureSurface::learn_columns(const Eigen::MatrixXd& values) const {
+  Learnt learnt{{}, values.colwise().mean(), {}, {}, Eigen::VectorXd(values.cols()), Eigen::VectorXd(values.cols())};
+  Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
+  const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
+  centred /= spread;
+  const std::vector<int> base = base_runs();
   learnt.kernel = likeliest_kernel(base, centred(base, Eigen::all));
   learn_effects(learnt, centred);
   std::vector<int> all(points_.size());
@@ -181,13 +198,26 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
   const std::vector<int> near = half_nearest_to_the_centre();
   double expected = 0.0;  // of a run that is left out
   for (const int k : near) expected += 1.0 / inverse(k, k) / static_cast<double>(near.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
     double sum = 0.0;
-    for (const int k : near) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
-    run_variance_[rows[r]] = square(spread) * sum / static_cast<double>(near.size());
-    learnt.variance_scale[static_cast<Eigen::Index>(r)] = run_variance_[rows[r]] / expected;
+    for (const int k : near) sum += square(weights(k, c) / inverse(k, k));
+    learnt.run_variance[c] = square(spread) * sum / static_cast<double>(near.size());
+    learnt.variance_scale[c] = learnt.run_variance[c] / expected;
   }
   learnt.weights = spread * weights;
+  return learnt;
+}
+
+FractureSurface::LearntFeature FractureSurface::learn_feature(std::vector<int> rows,
+                                                              const Eigen::MatrixXd& values) const {
+  const std::vector<int> base = base_runs();
+  const std::size_t count = std::min({static_cast<std::size_t>(rules_.components), rows.size() / 2,
+                                      base.size() / static_cast<std::size_t>(rules_.runs_of_component)});
+  LearntFeature learnt{std::move(rows), {}, {}, {}};
+  learnt.basis = mean_and_components(values(base, Eigen::all), static_cast<Eigen::Index>(count));
+  const Eigen::MatrixXd scores = values * learnt.basis;
+  for (const auto& score : scores.colwise()) learnt.components.push_back(learn_columns(score));
+  learnt.rest = learn_columns(values - scores * learnt.basis.transpose());
   return learnt;
 }
 
@@ -213,12 +243,15 @@ void FractureSurface::learn() {
   for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
   std::vector<std::vector<int>> kinds;
   for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
-  run_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   learnt_.assign(kinds.size(), {});
-  parallel_for(kinds.size(), [&](int k) {
-    const auto& rows = kinds[k];
-    learnt_[k] = learn_feature(rows, values(Eigen::all, rows));
-  });
+  parallel_for(kinds.size(), [&](int k) { learnt_[k] = learn_feature(kinds[k], values(Eigen::all, kinds[k])); });
+  run_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  for (const LearntFeature& learnt : learnt_) {
+    run_variance_(learnt.rows) = learnt.rest.run_variance;
+    for (std::size_t k = 0; k < learnt.components.size(); ++k)
+      run_variance_(learnt.rows) +=
+          learnt.components[k].run_variance[0] * learnt.basis.col(static_cast<Eigen::Index>(k)).cwiseAbs2();
+  }
 }
 
 /// Change by the testing machine in every row: on the curves of the runs nearest to the point, averaged.
@@ -260,10 +293,10 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
 Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) const {
   const SurfacePoint at = point_of(set);
   Eigen::VectorXd result(static_cast<Eigen::Index>(rows_.size()));
-  for (const Learnt& learnt : learnt_) {
-    const Eigen::RowVectorXd values =
-        learnt.mean + covariance_with_runs(learnt.kernel, at).transpose() * learnt.weights;
-    for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[r];
+  for (const LearntFeature& learnt : learnt_) {
+    result(learnt.rows) = predicted(learnt.rest, at).transpose();
+    for (std::size_t k = 0; k < learnt.components.size(); ++k)
+      result(learnt.rows) += predicted(learnt.components[k], at)[0] * learnt.basis.col(static_cast<Eigen::Index>(k));
   }
   const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
     return material::acts_in_measurement(extension.first) &&
@@ -279,16 +312,30 @@ Eigen::VectorXd FractureSurface::covariance_with_runs(const Kernel& kernel, cons
   return covariances;
 }
 
-Eigen::VectorXd FractureSurface::mean_variance(const material::ParameterSet& set) const {
+Eigen::RowVectorXd FractureSurface::predicted(const Learnt& learnt, const SurfacePoint& at) const {
+  return learnt.mean + covariance_with_runs(learnt.kernel, at).transpose() * learnt.weights;
+}
+
+Eigen::VectorXd FractureSurface::variance_of_mean(const Learnt& learnt, const SurfacePoint& at) const {
+  const Eigen::VectorXd to_runs = covariance_with_runs(learnt.kernel, at);
+  const double left = covariance(learnt.kernel, at, at) - to_runs.dot(learnt.factor.solve(to_runs));
+  return learnt.variance_scale * std::max(left, 0.0);
+}
+
+ErrorOfMean FractureSurface::error_of_mean(const material::ParameterSet& set) const {
   const SurfacePoint at = point_of(set);
-  Eigen::VectorXd variance(static_cast<Eigen::Index>(rows_.size()));
-  for (const Learnt& learnt : learnt_) {
-    const Eigen::VectorXd to_runs = covariance_with_runs(learnt.kernel, at);
-    const double left = covariance(learnt.kernel, at, at) - to_runs.dot(learnt.factor.solve(to_runs));
-    for (std::size_t r = 0; r < learnt.rows.size(); ++r)
-      variance[learnt.rows[r]] = learnt.variance_scale[static_cast<Eigen::Index>(r)] * std::max(left, 0.0);
+  const auto rows = static_cast<Eigen::Index>(rows_.size());
+  ErrorOfMean error{Eigen::VectorXd::Zero(rows), Eigen::MatrixXd::Zero(rows, 0)};
+  for (const LearntFeature& learnt : learnt_) {
+    error.own(learnt.rows) = variance_of_mean(learnt.rest, at);
+    const Eigen::Index first = error.shared.cols(), count = learnt.basis.cols();
+    error.shared.conservativeResize(Eigen::NoChange, first + count);
+    error.shared.rightCols(count).setZero();
+    for (Eigen::Index k = 0; k < count; ++k)
+      error.shared.col(first + k)(learnt.rows) =
+          std::sqrt(variance_of_mean(learnt.components[k], at)[0]) * learnt.basis.col(k);
   }
-  return variance;
+  return error;
 }
 
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {

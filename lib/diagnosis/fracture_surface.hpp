@@ -2,9 +2,12 @@
 // Features of fracture tests as functions of the parameters, learnt from runs around a fit: a fracture costs a second,
 // a bootstrap asks for thousands.
 //
-// Gaussian processes: per feature one covariance for all groups, an offset, a linear and a curved part over the
-// logarithms of eta, one part per effect that vanishes where the effect does, and noise: a crack jumps from one path to
-// another. Effects of the machine need no emulator: they are applied to the curves of the nearest runs.
+// Gaussian processes (Higdon et al. 2008, doi:10.1198/016214507000000888): of each feature the mean over the
+// groups and further principal components, each with a covariance of its own, since what many groups do alike is known
+// better than what one does; and what these leave of each group, with one covariance for all. A covariance has an
+// offset, a linear and a curved part over the logarithms of eta, one part per effect that vanishes where the effect
+// does, and noise: a crack jumps from one path to another. Effects of the machine need no emulator: they are applied to
+// the curves of the nearest runs.
 
 #include <Eigen/Dense>
 #include <map>
@@ -25,6 +28,13 @@ struct SurfaceRow {
 /// behind): zero without the effect, linear and curved in its size.
 double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const EmulatorRules& rules);
 
+/// Error of expectations over specimens, independent between the columns of `shared`.
+struct ErrorOfMean {
+  Eigen::VectorXd own;     ///< variance per row, of what no other row has in common with it
+  Eigen::MatrixXd shared;  ///< rows x components, one standard deviation each
+  Eigen::VectorXd variance() const { return own + shared.rowwise().squaredNorm(); }
+};
+
 class FractureSurface {
  public:
   /// Learns the rows of the observations that are features of fracture tests from all runs of their `groups`
@@ -39,9 +49,9 @@ class FractureSurface {
   /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre. A run is one
   /// specimen's crack: its own scatter is in it.
   const Eigen::VectorXd& run_variance() const { return run_variance_; }
-  /// Variance of the expectation over specimens that predict() gives at a parameter set, per row: the posterior one of
-  /// the process, scaled so that run_variance() is what the process expects. Small where many runs are near.
-  Eigen::VectorXd mean_variance(const material::ParameterSet& set) const;
+  /// Error of the expectation over specimens that predict() gives at a parameter set, per row: the posterior one of the
+  /// processes, scaled so that errors at runs that were left out are what they expect. Small where many runs are near.
+  ErrorOfMean error_of_mean(const material::ParameterSet& set) const;
 
  private:
   struct SurfacePoint {
@@ -52,13 +62,20 @@ class FractureSurface {
     double linear = 1.0, curved = 1.0, noise = 1.0;
     std::map<int, double> effect;  ///< amplitude by library index
   };
+  /// Numbers of a run, columns, that have one covariance: a principal component, or what is left of every row.
   struct Learnt {
-    std::vector<int> rows;  ///< indices into rows_
     Kernel kernel;
     Eigen::RowVectorXd mean;
-    Eigen::MatrixXd weights;             ///< runs x rows
-    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the runs, in units of the feature's spread
-    Eigen::VectorXd variance_scale;      ///< of that process to the errors at runs that were left out, per row
+    Eigen::MatrixXd weights;             ///< runs x columns
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the runs, in units of the columns' spread
+    Eigen::VectorXd run_variance;        ///< mean square error at runs that were left out, per column
+    Eigen::VectorXd variance_scale;      ///< of that process to these errors, per column
+  };
+  struct LearntFeature {
+    std::vector<int> rows;  ///< indices into rows_
+    Eigen::MatrixXd basis;  ///< rows x components, orthonormal
+    std::vector<Learnt> components;
+    Learnt rest;  ///< a column per row
   };
   SurfacePoint point_of(const material::ParameterSet& set) const;
   double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) const;
@@ -67,8 +84,12 @@ class FractureSurface {
   /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
   std::vector<int> half_nearest_to_the_centre() const;
-  Learnt learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values);
+  std::vector<int> base_runs() const;
+  LearntFeature learn_feature(std::vector<int> rows, const Eigen::MatrixXd& values) const;
+  Learnt learn_columns(const Eigen::MatrixXd& values) const;
   void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
+  Eigen::RowVectorXd predicted(const Learnt& learnt, const SurfacePoint& at) const;
+  Eigen::VectorXd variance_of_mean(const Learnt& learnt, const SurfacePoint& at) const;
   Eigen::VectorXd machine_change(const material::ParameterSet& set, const SurfacePoint& at) const;
 
   void learn();
@@ -80,7 +101,7 @@ class FractureSurface {
   EmulatorRules rules_;
   std::vector<SurfaceRow> rows_;
   std::vector<SurfacePoint> points_;
-  std::vector<Learnt> learnt_;
+  std::vector<LearntFeature> learnt_;
   Eigen::VectorXd run_variance_;
 };
 

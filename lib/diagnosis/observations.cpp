@@ -313,7 +313,7 @@ Eigen::VectorXd Observations::own_variances() const {
 
 Eigen::MatrixXd Observations::shared_directions() const {
   Eigen::MatrixXd directions(size(), 0);
-  for (const Eigen::MatrixXd* own : {&fracture_change, &discretisation_shared, &levels}) {
+  for (const Eigen::MatrixXd* own : {&fracture_change, &emulator_shared, &discretisation_shared, &levels}) {
     if (own->rows() != size()) continue;
     directions.conservativeResize(Eigen::NoChange, directions.cols() + own->cols());
     directions.rightCols(own->cols()) = *own;

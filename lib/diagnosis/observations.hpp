@@ -135,6 +135,7 @@ struct Observations {
                                                    ///< standard deviation; may be empty
   Eigen::MatrixXd levels;                          ///< rows x free levels of factors (factors.hpp), the same
   Eigen::VectorXd emulator_variance;               ///< per row; empty: none (emulator_covariance())
+  Eigen::MatrixXd emulator_shared;                 ///< rows x directions: errors that rows of a feature have in common
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
   std::vector<std::string> machines;  ///< their names, sorted

@@ -63,6 +63,8 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("kept_spread", m.kept_spread);
   field("kept_sizes", m.kept_sizes);
   field("kept_jitter", m.kept_jitter);
+  field("components", m.components);
+  field("runs_of_component", m.runs_of_component);
   field("level_sd", m.level_sd);
   field("curved_length", m.curved_length);
   field("effect_length", m.effect_length);
