@@ -111,10 +111,14 @@ double soft_share(double rigid_fraction) { return std::max(0.0, 1.0 - 2.0 * rigi
 
 double rate_stiffening(const LawExtensions& extensions, double strain_rate_per_s) {
   if (extensions.overstress == 0.0) return 1.0;
-  constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025;
-  const double tau = extensions.relaxation_time_s, first = kFirstStrain / strain_rate_per_s / tau,
-               last = kLastStrain / strain_rate_per_s / tau;
+  const double tau = extensions.relaxation_time_s, first = kFirstChordStrain / strain_rate_per_s / tau,
+               last = kLastChordStrain / strain_rate_per_s / tau;
   return 1.0 - extensions.overstress * std::exp(-first) * std::expm1(first - last) / (last - first);
+}
+
+double held_stiffening(const LawExtensions& extensions, double time_s) {
+  if (extensions.overstress == 0.0) return 1.0;
+  return 1.0 + extensions.overstress * std::exp(-time_s / extensions.relaxation_time_s);
 }
 
 ExtendedLaw extended_law(const LawExtensions& extensions, const Lame& lame, double threshold_j_per_m3,

@@ -52,6 +52,10 @@ double soft_share(double rigid_fraction);
 /// E over its relaxed value in a tensile test at a constant rate: the chord between 0.05 and 0.25 % strain
 /// (ISO 527), 1 + r tau (exp(-t1/tau) - exp(-t2/tau)) / (t2 - t1).
 double rate_stiffening(const LawExtensions& extensions, double strain_rate_per_s);
+/// The strains of that chord.
+inline constexpr double kFirstChordStrain = 0.0005, kLastChordStrain = 0.0025;
+/// The relaxation modulus over its relaxed value at `time_s` after a step of strain that is held, 1 + r exp(-t/tau).
+double held_stiffening(const LawExtensions& extensions, double time_s);
 
 /// The law of one material.
 struct ExtendedLaw {

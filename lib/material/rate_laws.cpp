@@ -8,32 +8,51 @@
 namespace nacre::material {
 namespace {
 
-Phases by_powers(Phases phases, const Extensions& extensions, double strain_rate_per_s) {
+/// c(n) of the header.
+double relaxation_over_chord(double exponent) {
+  const double rest = 1.0 - exponent, decades = std::log(kLastChordStrain / kFirstChordStrain);
+  const double grown = rest == 0.0 ? decades : std::expm1(rest * decades) / rest;
+  return (kLastChordStrain - kFirstChordStrain) / (std::pow(kFirstChordStrain, rest) * grown);
+}
+
+/// Multiplies E of each phase by `factor` of its exponent.
+template <class Factor>
+Phases by_powers(Phases phases, const Extensions& extensions, Factor factor) {
   const double soft = extension_value(extensions, "rate_power_law", 0);
   if (soft == 0.0) return phases;
-  const double log_rate = std::log(strain_rate_per_s / kReferenceRatePerS);
-  phases.soft.young_pa *= std::exp(soft * log_rate);
-  phases.interface.young_pa *= std::exp(soft * extension_value(extensions, "rate_power_law", 1) * log_rate);
-  phases.rigid.young_pa *= std::exp(soft * extension_value(extensions, "rate_power_law", 2) * log_rate);
+  phases.soft.young_pa *= factor(soft);
+  phases.interface.young_pa *= factor(soft * extension_value(extensions, "rate_power_law", 1));
+  phases.rigid.young_pa *= factor(soft * extension_value(extensions, "rate_power_law", 2));
   return phases;
 }
 
-Phases by_two_branches(Phases phases, const Extensions& extensions, double strain_rate_per_s) {
+/// Multiplies E of all phases by 1 + what each of two branches adds, `stiffening` of one branch.
+template <class Stiffening>
+Phases by_two_branches(Phases phases, const Extensions& extensions, Stiffening stiffening) {
   const double first = extension_value(extensions, "rate_prony", 0);
   if (first == 0.0) return phases;
   const double time_s = extension_value(extensions, "rate_prony", 1);
   const LawExtensions one{.overstress = first, .relaxation_time_s = time_s},
       other{.overstress = extension_value(extensions, "rate_prony", 2),
             .relaxation_time_s = time_s * extension_value(extensions, "rate_prony", 3)};
-  const double stiffening = rate_stiffening(one, strain_rate_per_s) + rate_stiffening(other, strain_rate_per_s) - 1.0;
-  for (Constants* phase : {&phases.soft, &phases.interface, &phases.rigid}) phase->young_pa *= stiffening;
+  const double both = stiffening(one) + stiffening(other) - 1.0;
+  for (Constants* phase : {&phases.soft, &phases.interface, &phases.rigid}) phase->young_pa *= both;
   return phases;
 }
 
 }  // namespace
 
 Phases phases_at_rate(Phases phases, const Extensions& extensions, double strain_rate_per_s) {
-  return by_two_branches(by_powers(phases, extensions, strain_rate_per_s), extensions, strain_rate_per_s);
+  const double log_rate = std::log(strain_rate_per_s / kReferenceRatePerS);
+  return by_two_branches(by_powers(phases, extensions, [&](double n) { return std::exp(n * log_rate); }), extensions,
+                         [&](const LawExtensions& branch) { return rate_stiffening(branch, strain_rate_per_s); });
+}
+
+Phases phases_held(Phases phases, const Extensions& extensions, double time_s) {
+  const double log_time = std::log(kReferenceRatePerS * time_s);
+  const auto relaxed = [&](double n) { return std::exp(-n * log_time) * relaxation_over_chord(n); };
+  return by_two_branches(by_powers(phases, extensions, relaxed), extensions,
+                         [&](const LawExtensions& branch) { return held_stiffening(branch, time_s); });
 }
 
 }  // namespace nacre::material

@@ -230,13 +230,28 @@ material::Constants coupon_constants(const material::Phases& phases, const patte
                             material::plane_strain_share(extensions, conditions.thickness_mm));
 }
 
-material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
-                                             const material::Extensions& extensions, const TestConditions& conditions) {
-  const material::Phases phases =
-      material::phases_at_rate(material::phases_of(theta), extensions, conditions.strain_rate_per_s);
+namespace {
+
+material::Constants bulk_constants(const material::Phases& phases, const pattern::Mixture& mixture,
+                                   const material::Extensions& extensions, const TestConditions& conditions) {
   material::Constants constants = coupon_constants(phases, mixture, extensions, conditions);
   constants.young_pa *= material::blend_factor(extensions, mixture.rigid_fraction);
   return constants;
+}
+
+}  // namespace
+
+material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
+                                             const material::Extensions& extensions, const TestConditions& conditions) {
+  return bulk_constants(material::phases_at_rate(material::phases_of(theta), extensions, conditions.strain_rate_per_s),
+                        mixture, extensions, conditions);
+}
+
+material::Constants held_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
+                                          const material::Extensions& extensions, const TestConditions& conditions,
+                                          double time_s) {
+  return bulk_constants(material::phases_held(material::phases_of(theta), extensions, time_s), mixture, extensions,
+                        conditions);
 }
 
 fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,

@@ -35,5 +35,9 @@ material::Constants coupon_constants(const material::Phases& phases, const patte
 /// The same in an elastic test of the bulk: at its strain rate, by the law of blends.
 material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
                                              const material::Extensions& extensions, const TestConditions& conditions);
+/// The same where a strain has been held for `time_s` after a step.
+material::Constants held_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
+                                          const material::Extensions& extensions, const TestConditions& conditions,
+                                          double time_s);
 
 }  // namespace nacre::tester

@@ -7,6 +7,7 @@
 #include "material/blend_law.hpp"
 #include "material/rate_laws.hpp"
 #include "tester/modulus.hpp"
+#include "tester/relaxation.hpp"
 
 namespace nacre::material {
 namespace {
@@ -52,6 +53,60 @@ TEST(RatePowerLaw, ActsInLayoutsThroughTheirPhases) {
   const double mixed = exponent({{"rate_power_law", {0.2, 0.5, 0.1}}});
   EXPECT_GT(mixed, 0.02);
   EXPECT_LT(mixed, 0.2);
+}
+
+double relaxation_at(const pattern::Design& design, const Extensions& extensions, double time_s) {
+  tester::Simulation simulation{design, default_parameters(), {}, tester::Fidelity::tiny};
+  simulation.parameters.extensions = extensions;
+  return tester::relaxation_modulus(simulation, time_s).value();
+}
+
+// A branch that took up stress at once decays with its own time.
+TEST(RelaxationModulus, OfAMaxwellBranchDecaysExponentially) {
+  const pattern::Design rigid = pattern::Mixture{1.0};
+  const double relaxed = modulus_at(rigid, {}, 1.0);
+  for (const double time_s : {0.1, 2.0, 5.0})
+    EXPECT_NEAR(relaxation_at(rigid, {{"rate_dependence", {0.6, 2.0}}}, time_s) / relaxed,
+                1.0 + 0.6 * std::exp(-time_s / 2.0), 1e-12);
+}
+
+// Boltzmann: a pull's stress is its rate times the integral of the relaxation modulus, so that the chord from 0.05 to
+// 0.25 % is the mean of that modulus over the times between.
+TEST(RelaxationModulus, OfEveryLawIntegratesToTheChordOfAPull) {
+  constexpr int kIntervals = 2000;
+  const Extensions laws[] = {{{"rate_dependence", {0.6, 2.0}}},
+                             {{"rate_power_law", {0.4, 0.5, 0.1}}},
+                             {{"rate_prony", {0.5, 0.1, 0.3, 100.0}}}};
+  for (const Extensions& law : laws) {
+    for (const double share : {0.0, 0.25, 1.0}) {
+      for (const double rate_per_s : {1e-4, 1e-2}) {
+        const pattern::Design design = pattern::Mixture{share};
+        double mean = 0.0;
+        for (int i = 0; i < kIntervals; ++i)
+          mean += relaxation_at(design, law, (0.0005 + 0.002 * (i + 0.5) / kIntervals) / rate_per_s) / kIntervals;
+        EXPECT_NEAR(mean / modulus_at(design, law, rate_per_s), 1.0, share == 0.25 ? 2e-3 : 1e-5)
+            << law.begin()->first << " " << share << " " << rate_per_s;
+      }
+    }
+  }
+}
+
+// The rate that stands for a time where a material relaxes slowly.
+TEST(RelaxationModulus, AfterATimeIsThatOfAPullAtTheRateThatStandsForIt) {
+  const pattern::Design soft = pattern::Mixture{0.0};
+  for (const double exponent : {0.01, 0.1, 0.3})
+    EXPECT_NEAR(relaxation_at(soft, {{"rate_power_law", {exponent, 1.0, 1.0}}}, 30.0) /
+                    modulus_at(soft, {{"rate_power_law", {exponent, 1.0, 1.0}}}, kRelaxationStrain / 30.0),
+                1.0, 0.05 * exponent);
+}
+
+TEST(RelaxationModulus, IsRefusedOfLayoutsAndAtNoTime) {
+  tester::Simulation simulation{
+      *pattern::design_from_word("577fffe9fffdef"), default_parameters(), {}, tester::Fidelity::tiny};
+  EXPECT_FALSE(tester::relaxation_modulus(simulation, 1.0));
+  simulation.design = pattern::Mixture{1.0};
+  EXPECT_TRUE(tester::relaxation_modulus(simulation, 1.0));
+  EXPECT_FALSE(tester::relaxation_modulus(simulation, 0.0));
 }
 
 TEST(BlendLaw, BulgesBetweenTheMaterialsAndNowhereElse) {
