@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/surroundings.hpp"
+
 namespace nacre::measurement {
 
 bool same_conditions(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
@@ -21,8 +23,9 @@ std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> sp
   for (SpecimenRecord& specimen : specimens) by_name.push_back(&specimen);
   std::sort(by_name.begin(), by_name.end(), [](const auto* a, const auto* b) { return a->specimen < b->specimen; });
   const tester::TestConditions upright, turned{.orientation_deg = 90.0};
-  std::vector<tester::TestConditions> nominal = {upright, turned};
+  std::vector<tester::TestConditions> of_pulls = {upright, turned}, of_holds;
   for (SpecimenRecord* specimen : by_name) {
+    auto& nominal = surroundings_of(*specimen).held ? of_holds : of_pulls;
     const auto known = std::find_if(nominal.begin(), nominal.end(),
                                     [&](const auto& each) { return same_conditions(specimen->conditions, each); });
     if (known == nominal.end()) {

@@ -11,9 +11,11 @@
 
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/import_relaxation.hpp"
 #include "measurement/import_sweep.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/loading_part.hpp"
+#include "measurement/nominal_curve.hpp"
 #include "measurement/plausibility.hpp"
 #include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
@@ -28,23 +30,6 @@ namespace nacre::measurement {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Stress over strain as recorded, from `begin` on; `factor` of extension and of force where their units are assumed.
-tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row, const AssumedUnits& units) {
-  // N / mm2 = MPa.
-  const double pa_per_newton = 1e6 * units.force_factor / (row.width_mm * row.record.conditions.thickness_mm);
-  tester::Curve curve;
-  curve.strain.reserve(record.line.size());
-  curve.stress_pa.reserve(record.line.size());
-  for (std::size_t i = 0; i < record.line.size(); ++i) {
-    curve.strain.push_back(record.strain.empty()
-                               ? units.extension_factor * (record.extension_mm[i] - record.extension_mm.front()) /
-                                     row.gauge_mm
-                               : record.strain[i] - record.strain.front());
-    curve.stress_pa.push_back(record.stress_pa.empty() ? record.force_n[i] * pa_per_newton : record.stress_pa[i]);
-  }
-  return curve;
-}
 
 /// Leaves out what stands before the pull; says so.
 void cut_before_pull(std::vector<double>& time_s, tester::Curve& curve, const PullStart& start,
@@ -299,20 +284,20 @@ void reject(const SheetRow& row, ImportFault fault, Import& import) {
   import.rejected.push_back(std::move(fault));
 }
 
-/// Adds the specimens of a sweep, whose names must not be others' of the sheet.
-void add_sweep(const SheetRow& row, const TesterRecord& from, const SpecimenSheet& sheet, const std::string& sheet_file,
-               Import& import, std::vector<SpecimenRecord>& records) {
-  auto sweep = import_sweep(row, from, sheet_file, import.warnings);
-  if (!sweep) return reject(row, sweep.error(), import);
-  for (const ImportedSpecimen& one : *sweep) {
+/// Adds the specimens of one piece, whose names must not be others' of the sheet.
+void add_rows_of_piece(const SheetRow& row, tl::expected<std::vector<ImportedSpecimen>, ImportFault> rows,
+                       const SpecimenSheet& sheet, const std::string& sheet_file, Import& import,
+                       std::vector<SpecimenRecord>& records) {
+  if (!rows) return reject(row, rows.error(), import);
+  for (const ImportedSpecimen& one : *rows) {
     const auto has_name = [&](const SheetRow& other) { return other.record.specimen == one.record.specimen; };
     if (std::none_of(sheet.rows.begin(), sheet.rows.end(), has_name)) continue;
     const std::string reason =
-        fmt::format("`{}` would be a row of the sweep {} and is a specimen of the sheet, expected another name",
+        fmt::format("`{}` would be a row of the table {} and is a specimen of the sheet, expected another name",
                     one.record.specimen, row.record.specimen);
     return reject(row, {sheet_file, row.line, "specimen", reason}, import);
   }
-  for (ImportedSpecimen& one : *sweep) {
+  for (ImportedSpecimen& one : *rows) {
     records.push_back(one.record);
     import.specimens.push_back(std::move(one));
   }
@@ -373,8 +358,11 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
     for (const std::string& warning : record->warnings) {
       if (warned.insert(warning).second) import.warnings.push_back(warning);
     }
-    if (record->sweep) {
-      add_sweep(row, *record, sheet, sheet_file.string(), import, records);
+    if (record->sweep || is_held(row, *record)) {
+      const bool is_sweep = record->sweep && !record->sweep->is_relaxation();
+      add_rows_of_piece(
+          row, (is_sweep ? import_sweep : import_relaxation)(row, *record, sheet_file.string(), import.warnings), sheet,
+          sheet_file.string(), import, records);
       continue;
     }
     auto imported = import_one(row, *record, row.file, settings);

@@ -9,6 +9,7 @@
 #include "base/counted.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/piece.hpp"
+#include "measurement/piece_rows.hpp"
 #include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
 
@@ -53,7 +54,7 @@ std::map<std::string, std::string> provenance_of_sweep(const TesterRecord& from,
 /// The measured modulus at one frequency; `common` is the same of all.
 ImportedSpecimen specimen_at(const SweepPoint& point, double amplitude, ImportedSpecimen common) {
   SpecimenRecord& record = common.record;
-  record.modulus_pa = common.test.modulus_pa = rounded(point.storage_modulus_pa, kSweepDigits);
+  record.modulus_pa = common.test.modulus_pa = rounded(point.modulus_pa, kSweepDigits);
   record.conditions.strain_rate_per_s = rounded(point.angular_frequency_per_s * amplitude, kSweepDigits);
   if (point.temperature_c)
     record.other_columns["temperature_c"] = fmt::format("{}", rounded(*point.temperature_c, kSweepDigits));
@@ -100,10 +101,10 @@ std::vector<ImportDoubt> doubts_of_sweep(const SheetRow& row, const Sweep& sweep
                                          sweep.column(SweepQuantity::amplitude)->heading)});
   const auto [least, most] =
       std::minmax_element(sweep.points.begin(), sweep.points.end(),
-                          [](const auto& a, const auto& b) { return a.storage_modulus_pa < b.storage_modulus_pa; });
-  if (!kUsualModulusPa.hold(least->storage_modulus_pa) || !kUsualModulusPa.hold(most->storage_modulus_pa))
+                          [](const auto& a, const auto& b) { return a.modulus_pa < b.modulus_pa; });
+  if (!kUsualModulusPa.hold(least->modulus_pa) || !kUsualModulusPa.hold(most->modulus_pa))
     doubts.push_back({true, fmt::format("storage moduli from {:.3g} to {:.3g} Pa are unusual: is the unit right?",
-                                        least->storage_modulus_pa, most->storage_modulus_pa)});
+                                        least->modulus_pa, most->modulus_pa)});
   return doubts;
 }
 
@@ -126,18 +127,8 @@ tl::expected<std::vector<ImportedSpecimen>, ImportFault> import_sweep(const Shee
                     fmt::format("no row has a strain rate within {} to {} 1/s, the angular frequency times the "
                                 "amplitude: expected other units of frequency or amplitude",
                                 kStrainRatePerS.least, kStrainRatePerS.most)});
-  const auto doubts = doubts_of_sweep(row, *from.sweep, from.sweep->points.size() - specimens.size());
-  for (const ImportDoubt& doubt : doubts)
-    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt.text));
-  for (ImportedSpecimen& one : specimens) one.doubts = doubts;  // none counts before they are settled
-  const std::size_t width = fmt::format("{}", specimens.size()).size();
-  for (std::size_t i = 0; i < specimens.size(); ++i)
-    specimens[i].record.specimen += fmt::format("-{:0{}}", i + 1, width);
-  if (specimens.back().record.specimen.size() > kLongestName)
-    return tl::unexpected(ImportFault{sheet, row.line, "specimen",
-                                      fmt::format("the names of a sweep's rows have {} bytes, expected at most {}",
-                                                  specimens.back().record.specimen.size(), kLongestName)});
-  return specimens;
+  const std::size_t left_out = from.sweep->points.size() - specimens.size();
+  return rows_of_piece(row, std::move(specimens), doubts_of_sweep(row, *from.sweep, left_out), sheet, warnings);
 }
 
 }  // namespace nacre::measurement

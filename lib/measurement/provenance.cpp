@@ -16,7 +16,7 @@
 namespace nacre::measurement {
 namespace {
 
-constexpr std::array<std::string_view, 46> kHeading = {"specimen",
+constexpr std::array<std::string_view, 49> kHeading = {"specimen",
                                                        "test",
                                                        "file",
                                                        "part",
@@ -47,6 +47,9 @@ constexpr std::array<std::string_view, 46> kHeading = {"specimen",
                                                        "storage_modulus_column",
                                                        "storage_modulus_unit",
                                                        "storage_modulus_not_taken",
+                                                       "relaxation_modulus_column",
+                                                       "relaxation_modulus_unit",
+                                                       "relaxation_modulus_not_taken",
                                                        "amplitude_column",
                                                        "amplitude_unit",
                                                        "amplitude_not_taken",

@@ -1,12 +1,14 @@
 #include "measurement/set_row.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "base/files.hpp"
 #include "base/names.hpp"
+#include "measurement/held_strain.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_checks.hpp"
@@ -44,6 +46,7 @@ class RowParser {
     record.note = text(kNote);
     record.curve = curve();
     keep_other_columns(record);
+    put_hold(record);
     check_consistency(record);
     if (fault_) return tl::unexpected(*fault_);
     return record;
@@ -202,6 +205,25 @@ class RowParser {
       if (position >= row_.cells.size() || row_.cells[position].text.empty()) continue;
       record.other_columns[name] = row_.cells[position].text;
     }
+  }
+
+  /// A strain that is held has no rate: that of a pull which is as stiff stands for its time.
+  void put_hold(SpecimenRecord& record) {
+    const auto cell = record.other_columns.find(std::string(kHoldColumn));
+    if (cell == record.other_columns.end()) return;
+    const auto refuse = [&](const std::string& reason) { reject(std::string(kHoldColumn), row_.line, reason); };
+    const Result<double> time_s = number_from_text(trimmed(cell->second));
+    if (!time_s || !(*time_s > 0.0) || !kStrainRatePerS.hold(rate_of_hold(*time_s)))
+      return refuse(fmt::format("`{}`, expected a time in s from {:.1g} to {:.1g}", cell->second,
+                                rate_of_hold(kStrainRatePerS.most), rate_of_hold(kStrainRatePerS.least)));
+    if (record.test != tester::TestKind::modulus || !record.design.mixture() || !record.modulus_pa)
+      return refuse("expected a modulus_pa of the test `modulus` of a homogeneous material, its relaxation modulus");
+    const double rate_per_s = rate_of_hold(*time_s);
+    if (text(kStrainRate).empty()) record.conditions.strain_rate_per_s = rate_per_s;
+    constexpr double kRounding = 0.01;
+    if (std::abs(record.conditions.strain_rate_per_s / rate_per_s - 1.0) > kRounding)
+      reject(kStrainRate, fmt::format("{} with a strain that was held for {} s, expected an empty cell or {:.4g}",
+                                      record.conditions.strain_rate_per_s, *time_s, rate_per_s));
   }
 
   /// A notched specimen does not determine the modulus, nor a modulus test the toughness.

@@ -23,7 +23,7 @@ std::optional<double> number(const SpecimenRecord& specimen, const char* column)
 
 Surroundings surroundings_of(const SpecimenRecord& specimen) {
   return {number(specimen, "temperature_c"), number(specimen, "humidity_pct"), number(specimen, "age_days"),
-          cell(specimen, "machine")};
+          cell(specimen, "machine"), number(specimen, "hold_s").has_value()};
 }
 
 std::string nominal_surroundings(const Surroundings& s) {
@@ -33,6 +33,7 @@ std::string nominal_surroundings(const Surroundings& s) {
   if (s.humidity_pct) text += fmt::format(" {} humid", std::lround(*s.humidity_pct / kHumidity));
   if (s.age_days && *s.age_days > 0.0)
     text += fmt::format(" {} old", std::lround(std::log(*s.age_days) / std::log(kAge)));
+  if (s.held) text += " held";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "measurement/sweep_blocks.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "measurement/cell_units.hpp"
@@ -47,13 +48,20 @@ class SweepFinder {
   }
 
   static bool names_sweep(const std::vector<std::string>& names, const std::vector<std::string>& units) {
-    bool any_frequency = false, any_modulus = false;
+    std::set<SweepQuantity> named;
+    bool is_pull = false;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto quantity = recognise_sweep_column(names[i], i < units.size() ? units[i] : "").quantity;
-      any_frequency = any_frequency || quantity == SweepQuantity::frequency;
-      any_modulus = any_modulus || quantity == SweepQuantity::storage_modulus;
+      const SweepColumn column = recognise_sweep_column(names[i], i < units.size() ? units[i] : "");
+      if (column.quantity) named.insert(*column.quantity);
+      const auto of_pull = column.name.quantity;
+      is_pull = is_pull || of_pull == Quantity::extension || of_pull == Quantity::force || of_pull == Quantity::strain;
     }
-    return any_frequency && any_modulus;
+    const auto has = [&](SweepQuantity one, SweepQuantity other) {
+      return named.contains(one) && named.contains(other);
+    };
+    return has(SweepQuantity::frequency, SweepQuantity::storage_modulus) ||
+           has(SweepQuantity::time, SweepQuantity::relaxation_modulus) ||
+           (has(SweepQuantity::time, SweepQuantity::stress) && !is_pull);
   }
 
   /// Whether a line may be one of words: numbers stand below headings.

@@ -46,6 +46,12 @@ constexpr std::string_view kStorageModuli[] = {
     "储能模量",
     "儲能模量",
 };
+constexpr std::string_view kRelaxationModuli[] = {
+    "relaxation modulus",     "relax modulus",        "relax mod",  "relaxation mod", "modulus relaxation",
+    "relaxationsmodul",       "module de relaxation", "e relax",    "e relaxation",   "modulo de relajacion",
+    "modulo di rilassamento", "modulo de relaxacao",  "緩和弾性率", "松弛模量",       "鬆弛模量",
+};
+constexpr std::string_view kStepTimes[] = {"step", "relaxation", "relax", "hold", "schritt", "segment"};
 constexpr std::string_view kOtherModuli[] = {
     "loss",       "verlust",    "verlustmodul", "verlustfaktor",
     "perte",      "perdita",    "perdida",      "dissipation",
@@ -198,6 +204,30 @@ bool names_storage_modulus(SweepColumn& column) {
   return true;
 }
 
+bool names_relaxation_modulus(SweepColumn& column) {
+  const std::string& name = column.name.name;
+  const std::string words = plain_words(column.name.heading);
+  const bool is_symbol = words.starts_with("e(t)"), is_shear = words.starts_with("g(t)");
+  if (!is_symbol && !is_shear && !holds_one(kRelaxationModuli, name)) return false;
+  if (holds_one(kOtherModuli, name)) return false;
+  column.is_shear = column.is_shear || is_shear;
+  column.rank = is_symbol ? 0 : 1;
+  return true;
+}
+
+bool names_time(SweepColumn& column) {
+  const ColumnName& name = column.name;
+  if (name.quantity != Quantity::time || name.is_other) return false;
+  column.rank = holds_one(kStepTimes, name.name) ? 0 : 1;
+  return true;
+}
+
+bool names_stress(SweepColumn& column) {
+  const ColumnName& name = column.name;
+  column.rank = name.rank;
+  return name.quantity == Quantity::stress && !name.is_other && !holds_one(kStaticStrains, name.name);
+}
+
 bool names_amplitude(SweepColumn& column) {
   const ColumnName& name = column.name;
   const bool is_strain = name.quantity == Quantity::strain, is_amplitude = holds_one(kAmplitudes, name.name);
@@ -219,14 +249,15 @@ bool names_temperature(SweepColumn& column) {
 }  // namespace
 
 std::string_view to_string(SweepQuantity quantity) {
-  constexpr std::array<std::string_view, kSweepQuantities> kWords = {"frequency", "storage_modulus", "amplitude",
-                                                                     "temperature"};
+  constexpr std::array<std::string_view, kSweepQuantities> kWords = {
+      "frequency", "storage_modulus", "amplitude", "temperature", "time", "relaxation_modulus", "stress"};
   return kWords[static_cast<std::size_t>(quantity)];
 }
 
 std::string_view expected_units(SweepQuantity quantity) {
-  constexpr std::array<std::string_view, kSweepQuantities> kUnits = {"Hz, kHz, mHz, rad/s", "Pa, kPa, MPa, GPa, psi",
-                                                                     "%, mm/mm, ustrain", "C, K, F"};
+  constexpr std::string_view kStresses = "Pa, kPa, MPa, GPa, psi";
+  constexpr std::array<std::string_view, kSweepQuantities> kUnits = {
+      "Hz, kHz, mHz, rad/s", kStresses, "%, mm/mm, ustrain", "C, K, F", "s, ms, min, h", kStresses, kStresses};
   return kUnits[static_cast<std::size_t>(quantity)];
 }
 
@@ -242,9 +273,13 @@ std::optional<SweepUnit> unit_of_sweep(const SweepColumn& column, std::string_vi
         return SweepUnit{};
       return scale_of(kFrequencyUnits, bare);
     case SweepQuantity::storage_modulus:
+    case SweepQuantity::relaxation_modulus:
+    case SweepQuantity::stress:
       return scaled(unit_factor(Quantity::stress, unit));
     case SweepQuantity::amplitude:
       return scaled(unit_factor(Quantity::strain, unit));
+    case SweepQuantity::time:
+      return scaled(unit_factor(Quantity::time, unit));
     default:
       return scale_of(kTemperatureUnits, bare);
   }
@@ -261,9 +296,12 @@ SweepColumn recognise_sweep_column(std::string_view heading, std::string_view un
   column.is_sample = std::find(std::begin(kSamples), std::end(kSamples), column.name.name) != std::end(kSamples);
   constexpr std::array<std::pair<SweepQuantity, bool (*)(SweepColumn&)>, kSweepQuantities> kRules = {
       {{SweepQuantity::storage_modulus, names_storage_modulus},
+       {SweepQuantity::relaxation_modulus, names_relaxation_modulus},
        {SweepQuantity::frequency, names_frequency},
        {SweepQuantity::temperature, names_temperature},
-       {SweepQuantity::amplitude, names_amplitude}}};
+       {SweepQuantity::amplitude, names_amplitude},
+       {SweepQuantity::time, names_time},
+       {SweepQuantity::stress, names_stress}}};
   for (const auto& [quantity, is_named] : kRules) {
     column.name = as_read;
     column.quantity = quantity;

@@ -1,5 +1,6 @@
 #pragma once
-// The meaning of the columns of a frequency sweep (dynamic mechanical analysis): headings -> quantity and unit.
+// The meaning of the columns of dynamic mechanical analysis, a frequency sweep or a relaxation: headings -> quantity
+// and unit.
 
 #include <optional>
 #include <string>
@@ -9,11 +10,12 @@
 
 namespace nacre::measurement {
 
-enum class SweepQuantity { frequency, storage_modulus, amplitude, temperature };
-inline constexpr std::size_t kSweepQuantities = 4;
-std::string_view to_string(SweepQuantity quantity);  ///< `frequency`, `storage_modulus`, `amplitude`, `temperature`
+/// `amplitude`: of the strain, or the strain that is held.
+enum class SweepQuantity { frequency, storage_modulus, amplitude, temperature, time, relaxation_modulus, stress };
+inline constexpr std::size_t kSweepQuantities = 7;
+std::string_view to_string(SweepQuantity quantity);  ///< as they are named above
 
-/// From a unit to rad/s, Pa, 1 (strain) or degrees Celsius: factor * value + offset.
+/// From a unit to rad/s, Pa, 1 (strain), degrees Celsius or s: factor * value + offset.
 struct SweepUnit {
   double factor = 1.0, offset = 0.0;
   double base(double value) const { return factor * value + offset; }
@@ -30,8 +32,8 @@ struct SweepColumn {
 };
 
 /// Recognises `Frequency (Hz)`, `f/Hz`, `Angular frequency [rad/s]`, `Storage modulus (MPa)`, `E'`, `Speichermodul`,
-/// `Oscillation strain (%)`, `Temp./°C`. Loss and complex moduli, tan delta, logarithms and static strains are none of
-/// the quantities. `unit`: of a row of its own; may be empty.
+/// `Relaxation modulus (MPa)`, `E(t)`, `Step time (s)`, `Oscillation strain (%)`, `Temp./°C`. Loss and complex moduli,
+/// tan delta, logarithms and static strains are none of the quantities. `unit`: of a row of its own; may be empty.
 SweepColumn recognise_sweep_column(std::string_view heading, std::string_view unit = {});
 
 /// The unit as a heading writes it; nothing where the column's quantity has no such unit. 1/s is rad/s of an angular

@@ -28,8 +28,8 @@ class SweepReader {
 
   std::optional<ImportFault> read() {
     check_shape();
-    for (const SweepQuantity quantity : {SweepQuantity::frequency, SweepQuantity::storage_modulus,
-                                         SweepQuantity::amplitude, SweepQuantity::temperature})
+    choose_axes();
+    for (const SweepQuantity quantity : {axis_, modulus_, SweepQuantity::amplitude, SweepQuantity::temperature})
       take(quantity);
     refuse_shear();
     find_marks();
@@ -68,6 +68,17 @@ class SweepReader {
                                 "file, or an empty cell between blanks?",
                                 cells, expected));
     }
+  }
+
+  bool has(SweepQuantity quantity) const {
+    return std::ranges::any_of(columns_, [&](const SweepColumn& each) { return each.quantity == quantity; });
+  }
+
+  /// A table of both is one of frequencies.
+  void choose_axes() {
+    if (has(SweepQuantity::frequency) && has(SweepQuantity::storage_modulus)) return;
+    axis_ = SweepQuantity::time;
+    modulus_ = has(SweepQuantity::relaxation_modulus) ? SweepQuantity::relaxation_modulus : SweepQuantity::stress;
   }
 
   std::vector<std::size_t> places_of(SweepQuantity quantity) const {
@@ -136,7 +147,7 @@ class SweepReader {
 
   /// A modulus that is not named E' may be one in shear, a third of it.
   void refuse_shear() {
-    const auto& modulus = taken(SweepQuantity::storage_modulus);
+    const auto& modulus = taken(modulus_);
     if (!modulus) return;
     const auto sheared = std::find_if(columns_.begin(), columns_.end(), [](const auto& each) { return each.is_shear; });
     const bool is_symbol = columns_[modulus->place].rank == 0;
@@ -173,21 +184,27 @@ class SweepReader {
     std::vector<int> left_out;
     for (const std::size_t row : rows_) {
       const int line = static_cast<int>(block_.lines[row]) + 1;
-      const auto frequency = value(row, SweepQuantity::frequency), modulus = value(row, SweepQuantity::storage_modulus),
+      const auto at = value(row, axis_), modulus = value(row, modulus_),
                  amplitude = value(row, SweepQuantity::amplitude);
-      const bool lacks_amplitude = taken(SweepQuantity::amplitude) && amplitude.value_or(0.0) <= 0.0;
-      if (frequency.value_or(0.0) <= 0.0 || modulus.value_or(0.0) <= 0.0 || lacks_amplitude) {
+      const bool is_sweep = axis_ == SweepQuantity::frequency;
+      const bool lacks_amplitude = is_sweep && taken(SweepQuantity::amplitude) && amplitude.value_or(0.0) <= 0.0;
+      if (at.value_or(0.0) <= 0.0 || modulus.value_or(0.0) <= 0.0 || lacks_amplitude) {
         left_out.push_back(line);
         continue;
       }
-      sweep_.points.push_back(
-          {line, sample_of(row), *frequency, *modulus, amplitude, value(row, SweepQuantity::temperature)});
+      sweep_.points.push_back({.line = line,
+                               .sample = sample_of(row),
+                               .angular_frequency_per_s = is_sweep ? *at : 0.0,
+                               .time_s = is_sweep ? 0.0 : *at,
+                               .modulus_pa = *modulus,
+                               .amplitude = amplitude,
+                               .temperature_c = value(row, SweepQuantity::temperature)});
     }
     if (!left_out.empty())
-      say(
-          fmt::format("{} left out, the first in line {}: frequency, storage modulus and "
-                      "amplitude are expected as numbers above 0",
-                      counted(static_cast<int>(left_out.size()), "row"), left_out.front()));
+      say(fmt::format("{} left out, the first in line {}: {} are expected as numbers above 0",
+                      counted(static_cast<int>(left_out.size()), "row"), left_out.front(),
+                      axis_ == SweepQuantity::frequency ? "frequency, storage modulus and amplitude"
+                                                        : "time and modulus or stress"));
   }
 
   const TableBlock& block_;
@@ -198,6 +215,7 @@ class SweepReader {
   std::vector<std::size_t> rows_;
   std::vector<SweepColumn> columns_;
   std::array<std::optional<Taken>, kSweepQuantities> taken_ = {};
+  SweepQuantity axis_ = SweepQuantity::frequency, modulus_ = SweepQuantity::storage_modulus;
   DecimalMarks marks_;
   std::optional<ImportFault> fault_;
 };
@@ -218,13 +236,13 @@ tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const Colu
   const int first = headings.empty() ? 0 : static_cast<int>(headings.front());
   if (sweep.points.empty())
     return tl::unexpected(ImportFault{file, first, "",
-                                      "no row below the heading has a frequency and a storage modulus "
+                                      "no row below the heading has a frequency or time and a modulus "
                                       "above 0, expected at least one"});
   if (sweep.points.size() > kMostTableRows)
     return tl::unexpected(
         ImportFault{file, first, "", fmt::format("{} rows, expected at most {}", sweep.points.size(), kMostTableRows)});
   if (headings.size() > 1)
-    sweep.decisions.push_back(fmt::format("{} tables are read as one sweep, with headings in lines {}", headings.size(),
+    sweep.decisions.push_back(fmt::format("{} tables are read as one, with headings in lines {}", headings.size(),
                                           fmt::join(headings, ", ")));
   return sweep;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Third stage of reading a frequency sweep: tables -> storage modulus by frequency of one piece, and which columns were
-// taken.
+// Third stage of reading a frequency sweep or a relaxation: tables -> modulus by frequency or by time of one piece, and
+// which columns were taken.
 
 #include <array>
 #include <optional>
@@ -18,12 +18,13 @@ namespace nacre::measurement {
 
 /// One line of the table.
 struct SweepPoint {
-  int line = 0;        ///< of the file, from 1
-  std::string sample;  ///< as a column of the table names it; empty where there is none
-  double angular_frequency_per_s = 0.0;
-  double storage_modulus_pa = 0.0;
-  std::optional<double> amplitude;      ///< of the strain; nothing where the table has no such column
-  std::optional<double> temperature_c;  ///< nothing where the table tells none
+  int line = 0;                          ///< of the file, from 1
+  std::string sample;                    ///< as a column of the table names it; empty where there is none
+  double angular_frequency_per_s = 0.0;  ///< of a sweep
+  double time_s = 0.0;                   ///< of a relaxation
+  double modulus_pa = 0.0;               ///< E', relaxation modulus, or the stress of a relaxation without one
+  std::optional<double> amplitude;       ///< of the strain, or held; nothing where the table has no such column
+  std::optional<double> temperature_c;   ///< nothing where the table tells none
 };
 
 struct Sweep {
@@ -36,11 +37,13 @@ struct Sweep {
   const std::optional<TakenColumn>& column(SweepQuantity quantity) const {
     return taken[static_cast<std::size_t>(quantity)];
   }
+  bool is_relaxation() const { return column(SweepQuantity::time).has_value(); }
 };
 
 /// Reads the tables of sweep_tables_of() one after the other. Of several columns of a quantity the first with a unit
-/// and the most usual name is taken. Rows without positive numbers are left out. The fault names line and column: no
-/// unit, a test in shear, torn rows, decimal points and commas, no row left.
+/// and the most usual name is taken. Rows without positive numbers are left out; of a sweep also those without an
+/// amplitude. The fault names line and column: no unit, a test in shear, torn rows, decimal points and commas, no row
+/// left.
 tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const ColumnChoice& choice,
                                           const std::string& file);
 

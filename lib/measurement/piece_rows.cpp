@@ -1,0 +1,28 @@
+#include "measurement/piece_rows.hpp"
+
+#include <fmt/format.h>
+
+#include "measurement/limits.hpp"
+
+namespace nacre::measurement {
+
+tl::expected<std::vector<ImportedSpecimen>, ImportFault> rows_of_piece(const SheetRow& row,
+                                                                       std::vector<ImportedSpecimen> rows,
+                                                                       const std::vector<ImportDoubt>& doubts,
+                                                                       const std::string& sheet,
+                                                                       std::vector<std::string>& warnings) {
+  for (const ImportDoubt& doubt : doubts)
+    warnings.push_back(fmt::format("specimen {}: {}", row.record.specimen, doubt.text));
+  const std::size_t width = fmt::format("{}", rows.size()).size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].doubts = doubts;
+    rows[i].record.specimen += fmt::format("-{:0{}}", i + 1, width);
+  }
+  if (const std::string& last = rows.back().record.specimen; last.size() > kLongestName)
+    return tl::unexpected(ImportFault{
+        sheet, row.line, "specimen",
+        fmt::format("the names of a table's rows have {} bytes, expected at most {}", last.size(), kLongestName)});
+  return rows;
+}
+
+}  // namespace nacre::measurement
