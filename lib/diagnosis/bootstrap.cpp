@@ -60,7 +60,9 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
     const bool of_coupons = row.group >= 0 && row.test == tester::TestKind::tensile;
     const bool of_own_scatter = row.scatter != static_cast<std::size_t>(row.test);
     if (!of_coupons && !of_own_scatter && row.kind != RowKind::constant) continue;
-    std::string name = row.kind == RowKind::constant ? "constants" : observations.groups[row.group].material();
+    std::string name = row.kind == RowKind::constant ? "constants"
+                       : row.group < 0               ? "history"
+                                                     : observations.groups[row.group].material();
     if (!of_coupons && of_own_scatter) name = "moduli of " + name;
     parts.back() = further.emplace(name, kTests + further.size()).first->second;
   }

@@ -13,6 +13,7 @@
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/held_strain.hpp"
 #include "measurement/piece.hpp"
 #include "measurement/reduction.hpp"
 #include "measurement/summary.hpp"
@@ -117,7 +118,8 @@ std::map<std::string, ConditionOf> conditions_of(const std::vector<SpecimenRecor
     if (!s.batch.empty()) conditions["batch"][&s] = s.batch;
     if (s.print_order > 0) conditions["print_order"][&s] = fmt::format("{}", s.print_order);
     for (const auto& [column, text] : s.other_columns)
-      if (column != measurement::kSampleColumn && !trimmed(text).empty()) conditions[column][&s] = trimmed(text);
+      if (column != measurement::kSampleColumn && column != measurement::kHoldColumn && !trimmed(text).empty())
+        conditions[column][&s] = trimmed(text);
   }
   std::erase_if(conditions, [](const auto& each) {
     std::set<std::string> values;

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "measurement/piece.hpp"
+
 namespace nacre::diagnosis {
 namespace {
 
@@ -13,7 +15,17 @@ using Regressor = std::vector<std::optional<double>>;
 /// A regressor and a feature over the specimens that have both, less their means over each group.
 struct Centred {
   Eigen::VectorXd x, y;
+  std::vector<std::string> pieces;
 };
+
+/// Variance of a slope over that of a piece, where tests of one piece deviate alike.
+double weight_of_pieces(const Eigen::VectorXd& x, const std::vector<std::string>& pieces) {
+  std::map<std::string, double> sums;
+  for (std::size_t i = 0; i < pieces.size(); ++i) sums[pieces[i]] += x[static_cast<Eigen::Index>(i)];
+  double squares = 0.0;
+  for (const auto& [piece, sum] : sums) squares += sum * sum;
+  return squares / (x.squaredNorm() * x.squaredNorm());
+}
 
 Centred centred(const std::vector<Deviation>& deviations, const Regressor& regressor, Feature feature) {
   struct Sums {
@@ -30,12 +42,13 @@ Centred centred(const std::vector<Deviation>& deviations, const Regressor& regre
     shown.push_back(i);
   }
   const auto count = static_cast<Eigen::Index>(shown.size());
-  Centred both{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  Centred both{Eigen::VectorXd(count), Eigen::VectorXd(count), {}};
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::size_t i = shown[k];
     const Sums& sums = groups[deviations[i].group];
     both.x[k] = *regressor[i] - sums.x / sums.count;
     both.y[k] = *value_of(deviations[i].from_mean, feature) - sums.y / sums.count;
+    both.pieces.push_back(measurement::piece_of(*deviations[i].measured->specimen));
   }
   return both;
 }
@@ -80,7 +93,8 @@ Regressor of_batches(const std::vector<Deviation>& deviations, Value value) {
 void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>& deviations, Feature feature,
                     tester::TestKind test, int fewest) {
   constexpr double kLeast = 1e-6;
-  const auto [steps, values] = centred(deviations, of_batches(deviations, [](double step) { return step; }), feature);
+  const auto [steps, values, pieces] =
+      centred(deviations, of_batches(deviations, [](double step) { return step; }), feature);
   if (values.size() < fewest || steps.squaredNorm() < kLeast) return;
   std::map<std::string, Eigen::VectorXd> members;
   std::vector<Eigen::VectorXd> regressors{steps};
@@ -107,6 +121,7 @@ void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>&
                                .scatter = 0,
                                .batch = numbers[k]},
                        x.dot(values) / squares,
+                       weight_of_pieces(x, pieces),
                        {}};
     for (const auto& [batch, own] : members) history.of_batches[batch] = x.dot(own) / squares;
     rows.push_back(std::move(history));
@@ -122,10 +137,12 @@ std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& g
     const Regressor order = order_in_batch(deviations);
     for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
       add_batch_rows(rows, deviations, feature, test, fewest);
-      const auto [x, y] = centred(deviations, order, feature);
+      const auto [x, y, pieces] = centred(deviations, order, feature);
       if (y.size() < fewest || x.squaredNorm() < 1e-6) continue;
-      rows.push_back(
-          {DataRow{-1, feature, RowKind::print_order, test, 1.0 / x.squaredNorm()}, x.dot(y) / x.squaredNorm(), {}});
+      rows.push_back({DataRow{-1, feature, RowKind::print_order, test, 1.0 / x.squaredNorm()},
+                      x.dot(y) / x.squaredNorm(),
+                      weight_of_pieces(x, pieces),
+                      {}});
     }
   }
   return rows;

@@ -12,7 +12,8 @@ namespace nacre::diagnosis {
 /// Dependence of a feature on when specimens were printed and tested, between replicates of one group.
 struct HistoryRow {
   DataRow row;
-  double value = 0.0;  ///< change of the feature per batch step, or per specimen printed within a batch
+  double value = 0.0;         ///< change of the feature per batch step, or per specimen printed within a batch
+  double piece_weight = 0.0;  ///< weight of the row if nothing scattered but pieces, which return in other groups
   std::map<std::string, double> of_batches;  ///< value if one batch is off by 1 and nothing else; not of print order
 };
 

@@ -6,6 +6,7 @@
 
 #include "diagnosis/words.hpp"
 #include "material/extensions.hpp"
+#include "measurement/held_strain.hpp"
 
 namespace nacre::diagnosis {
 
@@ -135,6 +136,7 @@ ordered_json json_of(const MeasuredMean& m) {
   if (around.humidity_pct) json["humidity_pct"] = *around.humidity_pct;
   if (around.age_days) json["age_days"] = *around.age_days;
   if (!around.machine.empty()) json["machine"] = around.machine;
+  if (around.held) json["hold_s"] = measurement::rate_of_hold(m.conditions.strain_rate_per_s);
   json.update({{"quantity", to_string(m.quantity)},
                {"pieces", m.pieces},
                {"mean_pa", m.mean_pa},

@@ -7,7 +7,9 @@
 #include "base/parallel.hpp"
 #include "diagnosis/other_materials.hpp"
 #include "material/temperature_shift.hpp"
+#include "measurement/held_strain.hpp"
 #include "tester/modulus.hpp"
+#include "tester/relaxation.hpp"
 #include "tester/simulation_key.hpp"
 #include "tester/tensile.hpp"
 
@@ -112,6 +114,12 @@ measurement::PrintContext FeatureModel::print_context(const Observation& group) 
 double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
   const Observation& g = observations_.groups[group];
   const tester::Simulation simulation{g.design, simulated_side(set), simulated_conditions(g, set), fidelity_};
+  if (g.surroundings.held) {
+    const auto held =
+        tester::relaxation_modulus(simulation, measurement::rate_of_hold(simulation.conditions.strain_rate_per_s));
+    if (!held) throw std::runtime_error(held.error().message);
+    return *held;
+  }
   const std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
     const std::lock_guard lock(memory_->mutex);

@@ -183,6 +183,24 @@ Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::Ma
   return scale.asDiagonal() * all * scale.asDiagonal();
 }
 
+/// Where pieces return in other groups, slopes of history weigh what a piece keeps as often as there are pieces, the
+/// rest as often as there are tests; so many pieces are behind their scatter. `history`: the last rows.
+void put_weights_of_pieces(Observations& observations, const std::vector<HistoryRow>& history) {
+  std::map<std::size_t, std::size_t> of_pieces;  // scatter of tests -> that of pieces
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    DataRow& row = observations.rows[observations.rows.size() - history.size() + k];
+    const ReplicateScatter tests = observations.scatter[row.scatter];
+    if (tests.piece_dof >= tests.dof) continue;
+    row.weight = (1.0 - tests.piece_share) * row.weight + tests.piece_share * history[k].piece_weight;
+    const auto [place, is_new] = of_pieces.try_emplace(row.scatter, observations.scatter.size());
+    if (is_new) {
+      observations.scatter.push_back(tests);
+      observations.scatter.back().dof = tests.piece_dof;
+    }
+    row.scatter = place->second;
+  }
+}
+
 /// Whether E of the base materials is told by layouts and by homogeneous specimens.
 bool has_constants_of_both(const std::vector<Observation>& groups) {
   const auto any = [&](auto is) { return std::ranges::any_of(groups, is); };
@@ -207,7 +225,7 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
     const auto [place, unknown] = own.emplace(std::pair(row.test, material), row.scatter);
     if (unknown) {
       ReplicateScatter scatter = pooled_scatter(groups, row.test, rules, material);
-      if (scatter.dof >= rules.own_dof) {
+      if (std::min(scatter.dof, scatter.piece_dof) >= rules.own_dof) {
         place->second = observations.scatter.size();
         scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
         observations.scatter.push_back(std::move(scatter));
@@ -406,6 +424,7 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   }
   observations.batch_offsets = batch_offsets(history, observations.rows.size());
   put_scatter(observations, groups, procedure.noise);
+  put_weights_of_pieces(observations, history);
   observations.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return observations;
 }

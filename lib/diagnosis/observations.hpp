@@ -99,6 +99,7 @@ struct ReplicateScatter {
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
   int assumed_dof = 0;         ///< further ones that are assumed
   int worth = 0;               ///< of a scatter without replicates: degrees of freedom that it is worth
+  int piece_dof = 0;           ///< of pieces alone: `dof` counts each as often as it was tested
   double piece_share = 0.0;    ///< of the variance, what a piece keeps from one group to another that it is also in
 };
 

@@ -71,20 +71,21 @@ void take_off_batches(std::vector<Deviation>& deviations) {
   }
 }
 
-/// Sets of batches that no group joins.
-std::vector<std::set<double>> joined_batches(const std::map<int, std::set<double>>& batches_of_group) {
-  std::vector<std::set<double>> joined;
-  for (const auto& entry : batches_of_group) {
-    const std::set<double>& batches = entry.second;
-    std::set<double> all = batches;
-    std::erase_if(joined, [&](const std::set<double>& other) {
-      const bool meets = std::ranges::any_of(other, [&](double batch) { return batches.contains(batch); });
+/// Sets of members (batches, pieces) that no group joins.
+template <class Member>
+std::vector<std::set<Member>> joined(const std::map<int, std::set<Member>>& of_groups) {
+  std::vector<std::set<Member>> sets;
+  for (const auto& entry : of_groups) {
+    const std::set<Member>& own = entry.second;
+    std::set<Member> all = own;
+    std::erase_if(sets, [&](const std::set<Member>& other) {
+      const bool meets = std::ranges::any_of(other, [&](const Member& each) { return own.contains(each); });
       if (meets) all.insert(other.begin(), other.end());
       return meets;
     });
-    joined.push_back(std::move(all));
+    sets.push_back(std::move(all));
   }
-  return joined;
+  return sets;
 }
 
 /// How many differences between batches these groups determine.
@@ -92,8 +93,7 @@ int batch_differences(const std::vector<Deviation>& deviations) {
   std::map<int, std::set<double>> batches_of_group;
   for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
   int count = 0;
-  for (const std::set<double>& batches : joined_batches(batches_of_group))
-    count += static_cast<int>(batches.size()) - 1;
+  for (const std::set<double>& batches : joined(batches_of_group)) count += static_cast<int>(batches.size()) - 1;
   return count;
 }
 
@@ -234,6 +234,18 @@ int dof_within(const std::vector<Deviation>& deviations) {
   return deviations.size() - groups.size();
 }
 
+/// Pieces beyond one in each set of groups that share some.
+int dof_of_pieces(const std::vector<Deviation>& deviations) {
+  std::map<int, std::set<std::string>> of_group;
+  std::set<std::string> all;
+  for (const Deviation& d : deviations) {
+    const std::string piece = measurement::piece_of(*d.measured->specimen);
+    of_group[d.group].insert(piece);
+    all.insert(piece);
+  }
+  return static_cast<int>(all.size()) - static_cast<int>(joined(of_group).size());
+}
+
 /// Whether every feature that all specimens show scatters less than is assumed.
 bool agree_too_well(const std::vector<Deviation>& deviations, const Eigen::MatrixXd& covariance,
                     const Eigen::MatrixXd& assumed) {
@@ -290,15 +302,18 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   const int within = dof_within(deviations);
   // Means of batches come off where enough is left to estimate scatter.
   const int differences = batch_differences(deviations);
-  const bool by_batch = differences > 0 && within >= rules.dof_per_batch * differences;
+  const int of_pieces = std::min(within, dof_of_pieces(deviations));
+  const bool by_batch = differences > 0 && of_pieces >= rules.dof_per_batch * differences;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
   scatter.piece_share = piece_share_of(deviations);
   scatter.dof = within - (by_batch ? differences : 0);
+  scatter.piece_dof = of_pieces - (by_batch ? differences : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
     // All designs share the means of batches: each bears its share of the degrees of freedom that they take.
     scatter.dof = within > 0 ? dof_within(deviations) * scatter.dof / within : 0;
+    scatter.piece_dof = std::min(scatter.dof, dof_of_pieces(deviations));
   }
   const AssumedScatter assumption = assumed_scatter(rules);
   const Eigen::MatrixXd assumed = covariance_of(assumption, rules);
@@ -323,14 +338,21 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
 }
 
 bool materials_scatter_differently(const std::vector<std::vector<Measured>>& groups, const NoiseRules& rules) {
-  std::map<std::string, std::pair<double, int>> of_material;  // sum of squares, degrees of freedom
+  std::map<std::string, std::vector<std::vector<Measured>>> groups_of;
   for (const auto& group : groups) {
     const measurement::SpecimenRecord& first = *group.front().specimen;
-    if (first.test != tester::TestKind::modulus || !first.design.mixture()) continue;
-    auto& [squares, dof] = of_material[first.design.name()];
-    for (const Deviation& each : deviations_of({group}, tester::TestKind::modulus))
+    if (first.test == tester::TestKind::modulus && first.design.mixture())
+      groups_of[first.design.name()].push_back(group);
+  }
+  std::map<std::string, std::pair<double, int>> of_material;  // sum of squares, degrees of freedom
+  for (const auto& [material, own] : groups_of) {
+    const std::vector<Deviation> deviations = deviations_of(own, tester::TestKind::modulus);
+    auto& [squares, dof] = of_material[material];
+    for (const Deviation& each : deviations)
       squares += std::pow(value_of(each.from_mean, Feature::log_modulus).value_or(0.0), 2);
-    dof += static_cast<int>(group.size()) - 1;
+    const int tests = dof_within(deviations);
+    dof = std::min(tests, dof_of_pieces(deviations));
+    if (dof < tests) squares *= static_cast<double>(dof) / tests;
   }
   std::erase_if(of_material, [&](const auto& entry) { return entry.second.second < rules.own_dof; });
   if (of_material.size() < 2) return false;
@@ -370,7 +392,7 @@ int disconnected_batches(const std::vector<std::vector<Measured>>& groups) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Measured& each : groups[g])
       if (!each.specimen->batch.empty()) batches_of_group[static_cast<int>(g)].insert(each.batch_step);
-  return static_cast<int>(joined_batches(batches_of_group).size());
+  return static_cast<int>(joined(batches_of_group).size());
 }
 
 }  // namespace nacre::diagnosis

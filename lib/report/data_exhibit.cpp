@@ -38,6 +38,7 @@ std::string words_of(const measurement::Surroundings& around) {
   if (around.humidity_pct) words.push_back(fmt::format("{:g} % humidity", *around.humidity_pct));
   if (around.age_days) words.push_back(fmt::format("{:g} days old", *around.age_days));
   if (!around.machine.empty()) words.push_back(around.machine);
+  if (around.held) words.push_back("held strain");
   return words.empty() ? std::string(kDash) : fmt::format("{}", fmt::join(words, ", "));
 }
 

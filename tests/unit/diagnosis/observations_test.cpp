@@ -159,6 +159,26 @@ TEST(Observations, GroupsOfTheSamePiecesGoTogether) {
   EXPECT_EQ(observed(specimens).covariance()(0, 1), 0.0) << "other pieces";
 }
 
+// Four pieces printed in a row, each tested at three rates: four specimens tell of the printer, not twelve.
+TEST(Observations, HistoryRestsOnPiecesAndNotOnTheirTests) {
+  const auto row_of_order = [](int rates) {
+    std::vector<measurement::SpecimenRecord> specimens;
+    for (int piece = 0; piece < 8; ++piece) {
+      for (int rate = 0; rate < rates; ++rate) {
+        specimens.push_back(modulus_at(std::string(1, static_cast<char>('a' + piece)), std::pow(10.0, -3 + rate),
+                                       1e9 * (1.0 + 0.2 * (piece % 3) + 1e-3 * (piece * rate % 5))));
+        specimens.back().print_order = 1 + piece;
+      }
+    }
+    const Observations all = observed(specimens);
+    const auto row = std::ranges::find(all.rows, RowKind::print_order, &DataRow::kind);
+    return row == all.rows.end() ? 0.0 : row->weight;
+  };
+  const double once = row_of_order(1);
+  EXPECT_GT(once, 0.0);
+  EXPECT_NEAR(row_of_order(3) / once, 1.0, 0.02);
+}
+
 TEST(Observations, TestsOfOnePieceCountOnce) {
   const Observations observations =
       observed({modulus_at("a", 1e-3, 1e9), modulus_at("a", 1.1e-3, 1.2e9), modulus_at("b", 1e-3, 1.1e9)});
