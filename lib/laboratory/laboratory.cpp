@@ -16,6 +16,8 @@
 #include "laboratory/specimen_raster.hpp"
 #include "laboratory/temperature.hpp"
 #include "material/neo_hookean.hpp"
+#include "measurement/held_strain.hpp"
+#include "measurement/rounded.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "tester/fidelity.hpp"
 #include "thesis/constants.hpp"
@@ -27,15 +29,19 @@ using measurement::SpecimenRecord;
 using tester::TestKind;
 
 constexpr int kCurvePoints = 200;
+/// Duration of the ramp before a strain is held, s.
+constexpr double kRampS = 0.2;
 /// Unnotched coupons are pulled until they have taken up this share of the energy W at which they begin to break: 0.85
 /// of that strain in an elastic one, so that what flows before is seen.
 constexpr double kCouponEnergy = 0.72;
 
 Making making_of(const Experiment& experiment, int specimen = 0) {
+  const double shift = rate_shift(experiment.temperature_c.value_or(kReferenceC));
   return {.orientation_deg = experiment.conditions.orientation_deg,
           .thickness_mm = experiment.conditions.thickness_mm,
-          .strain_rate_per_s =
-              experiment.conditions.strain_rate_per_s * rate_shift(experiment.temperature_c.value_or(kReferenceC)),
+          .strain_rate_per_s = experiment.conditions.strain_rate_per_s * shift,
+          .held_s = experiment.hold_s.value_or(0.0) / shift,
+          .ramp_s = experiment.hold_s ? kRampS / shift : 0.0,
           .pull_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(experiment.fidelity),
           .specimen = specimen};
 }
@@ -145,6 +151,14 @@ Scatter scatter_of(const Truth& truth, const std::string& specimen) {
           .strain = lognormal(strain, truth.noise.strain)};
 }
 
+/// What single readings of one piece scatter, of the scatter between pieces: its size is measured once.
+constexpr double kReadingShare = 0.2;
+
+double reading_scatter(const Truth& truth, const std::string& specimen) {
+  RandomStream reading(truth.seed, fmt::format("specimen/{}/{}", specimen, "reading"));
+  return lognormal(reading, kReadingShare * truth.noise.modulus);
+}
+
 /// Recorded stress over true stress: the load cell, and the cross-section by the calipers.
 double stress_gain(const HiddenEffects& effects, double thickness_mm) {
   return (1.0 + effects.load_cell_gain) * (thickness_mm / (thickness_mm + effects.thickness_error_mm));
@@ -196,6 +210,19 @@ HiddenEffects on_machine(HiddenEffects effects, bool is_second) {
   return effects;
 }
 
+/// What speaks against holding the strain of a specimen; or nothing.
+std::string fault_of_hold(const Truth& truth, const Experiment& experiment) {
+  if (!experiment.hold_s) return "";
+  if (experiment.test != TestKind::modulus || !experiment.design.mixture())
+    return "strain is held in modulus tests of homogeneous materials alone";
+  if (!(*experiment.hold_s >= 2.0 * kRampS))
+    return fmt::format("a hold of {} s, expected at least {}: the ramp takes {}", *experiment.hold_s, 2.0 * kRampS,
+                       kRampS);
+  const double soft = truth.effects.rate_exponent, rigid = soft * truth.effects.rate_exponent_ratio;
+  if (!(std::max(soft, rigid) < 1.0)) return "a power law of the rate with an exponent of 1 or more does not relax";
+  return "";
+}
+
 /// The curve of replicate `number` among those that were pulled.
 const tester::Curve& curve_of(const TrueResponse& response, int number) {
   const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
@@ -203,7 +230,8 @@ const tester::Curve& curve_of(const TrueResponse& response, int number) {
 }
 
 void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, const Replicate& replicate) {
-  Scatter scatter = scatter_of(truth, record.specimen);
+  Scatter scatter = scatter_of(truth, replicate.piece.empty() ? record.specimen : replicate.piece);
+  if (!replicate.piece.empty()) scatter.modulus *= reading_scatter(truth, record.specimen);
   const HiddenEffects effects = on_machine(truth.effects, replicate.on_second_machine);
   const double drift = drift_of(effects, record);
   scatter.modulus *= drift;
@@ -232,6 +260,7 @@ Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment) {
   if (experiment.test == TestKind::toughness && temperature_c != kReferenceC)
     return fail("a fracture test at {} C, expected {}: how materials break there is not modelled", temperature_c,
                 kReferenceC);
+  if (const std::string fault = fault_of_hold(truth, experiment); !fault.empty()) return fail("{}", fault);
   const double orientation = experiment.conditions.orientation_deg;
   if (orientation != 0.0 && orientation != 90.0) return fail("orientation {} degrees, expected 0 or 90", orientation);
   switch (experiment.test) {
@@ -255,6 +284,11 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   record.batch = replicate.batch;
   record.print_order = replicate.print_order;
   if (experiment.temperature_c) record.other_columns["temperature_c"] = fmt::format("{:g}", *experiment.temperature_c);
+  if (experiment.hold_s) {
+    record.conditions.strain_rate_per_s = measurement::rounded(measurement::rate_of_hold(*experiment.hold_s), 6);
+    record.other_columns["hold_s"] = fmt::format("{:g}", *experiment.hold_s);
+  }
+  if (!replicate.piece.empty()) record.other_columns["sample"] = replicate.piece;
   if (!replicate.machine.empty()) record.other_columns["machine"] = replicate.machine;
   record.valid = response.has_value();
   record.note = response ? response->remark : response.error().message;

@@ -20,6 +20,7 @@ struct Experiment {
   tester::TestConditions conditions = {};
   tester::Fidelity fidelity = tester::Fidelity::full;
   tester::Loading loading = {};              ///< of a coupon; every other test is monotonic
+  std::optional<double> hold_s = {};         ///< of a homogeneous modulus: strain is held for so long, not pulled
   std::optional<double> temperature_c = {};  ///< nothing: that of the laboratory, kReferenceC, and not noted
   int specimens = 0;  ///< pulled to separation, as far as they differ; 0: as many as the truth has replicates
   bool operator==(const Experiment&) const = default;
@@ -37,12 +38,14 @@ struct TrueResponse {
 
 /// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no
 /// sense
-/// (`tensile` of a layout, an orientation other than 0 and 90, fracture at another temperature).
+/// (`tensile` of a layout, an orientation other than 0 and 90, fracture at another temperature, a hold that is shorter
+/// than two ramps, or of a law that has no relaxation function).
 Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
 
 /// One replicate: how it is called and where it was printed.
 struct Replicate {
-  std::string specimen;  ///< names the streams of its scatter
+  std::string specimen;    ///< names the streams of its scatter
+  std::string piece = {};  ///< which is tested several times and has one scatter; empty: the specimen itself
   std::string batch = {};
   int print_order = 0;
   std::string machine = {};        ///< on which it is tested; empty: the laboratory's only one, not noted

@@ -23,15 +23,23 @@ using measurement::SpecimenRecord;
 
 constexpr double kTurnedDeg = 90.0;
 
-/// The same test at every rate and temperature of the campaign.
+bool is_to_be_held(const Experiment& experiment, const Campaign& campaign) {
+  return experiment.test == tester::TestKind::modulus && experiment.design.mixture() && !campaign.holds_s.empty();
+}
+
+/// The same test at every rate, or after every hold, and temperature of the campaign.
 std::vector<Experiment> at_all_conditions(const Experiment& experiment, const Campaign& campaign) {
   std::vector<std::optional<double>> temperatures_c(campaign.temperatures_c.begin(), campaign.temperatures_c.end());
   if (temperatures_c.empty() || experiment.test == tester::TestKind::toughness) temperatures_c = {std::nullopt};
+  const bool is_held = is_to_be_held(experiment, campaign);
   std::vector<Experiment> experiments;
-  for (const double rate_per_s : campaign.rates_per_s) {
+  for (const double each : is_held ? campaign.holds_s : campaign.rates_per_s) {
     for (const std::optional<double>& temperature_c : temperatures_c) {
       experiments.push_back(experiment);
-      experiments.back().conditions.strain_rate_per_s = rate_per_s;
+      if (is_held)
+        experiments.back().hold_s = each;
+      else
+        experiments.back().conditions.strain_rate_per_s = each;
       experiments.back().temperature_c = temperature_c;
     }
   }
@@ -59,7 +67,10 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
 std::string name_of(const Experiment& experiment, const Campaign& campaign, const std::string& machine) {
   std::string name = fmt::format("{}-{}-{}", experiment.design.name(), tester::to_string(experiment.test),
                                  experiment.conditions.orientation_deg == kTurnedDeg ? "turned-" : "");
-  if (campaign.rates_per_s.size() > 1) name += fmt::format("{:g}-", experiment.conditions.strain_rate_per_s);
+  if (experiment.hold_s)
+    name += "held-";
+  else if (campaign.rates_per_s.size() > 1)
+    name += fmt::format("{:g}-", experiment.conditions.strain_rate_per_s);
   if (experiment.temperature_c) name += fmt::format("{:g}C-", *experiment.temperature_c);
   if (campaign.machines.size() > 1) name += machine + "-";
   return name;
@@ -94,18 +105,21 @@ struct Planned {
   Replicate replicate;
 };
 
-/// Numbers the specimens of each batch 1, 2, ... in an order drawn from the seed.
+/// Numbers the pieces of each batch 1, 2, ... in an order drawn from the seed.
 void shuffle_print_order(std::vector<Planned>& plan, std::uint64_t seed) {
-  std::map<std::string, std::vector<std::pair<std::uint64_t, Replicate*>>> batches;
+  std::map<std::string, std::map<std::uint64_t, std::vector<Replicate*>>> batches;
   for (Planned& planned : plan) {
     const Replicate& replicate = planned.replicate;
-    RandomStream stream(seed, fmt::format("print/{}/{}", replicate.batch, replicate.specimen));
-    batches[replicate.batch].emplace_back(stream.bits(), &planned.replicate);
+    const std::string& piece = replicate.piece.empty() ? replicate.specimen : replicate.piece;
+    RandomStream stream(seed, fmt::format("print/{}/{}", replicate.batch, piece));
+    batches[replicate.batch][stream.bits()].push_back(&planned.replicate);
   }
-  for (auto& [batch, specimens] : batches) {
-    std::ranges::sort(specimens, {}, &std::pair<std::uint64_t, Replicate*>::first);
+  for (auto& [batch, pieces] : batches) {
     int position = 0;
-    for (auto& [draw, replicate] : specimens) replicate->print_order = ++position;
+    for (auto& [draw, rows] : pieces) {
+      ++position;
+      for (Replicate* row : rows) row->print_order = position;
+    }
   }
 }
 
@@ -140,6 +154,10 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign
         if (!campaign.machines.empty()) replicate.machine = campaign.machines[m];
         replicate.on_second_machine = m == 1;
         replicate.specimen = name_of(experiments[q], campaign, replicate.machine) + std::to_string(k);
+        if (const auto hold_s = experiments[q].hold_s) {
+          replicate.piece = replicate.specimen;
+          replicate.specimen += fmt::format("-{:g}s", *hold_s);
+        }
         plan.push_back({q, replicate});
       }
     }

@@ -18,7 +18,9 @@ struct Campaign {
   std::vector<double> orientations_deg = {0.0};
   std::vector<double> rates_per_s = {tester::TestConditions{}.strain_rate_per_s};
   std::vector<double> temperatures_c = {};  ///< of moduli and coupons; fracture tests are done at kReferenceC
-  tester::Loading loading = {};             ///< of coupons
+  std::vector<double> holds_s =
+      {};                        ///< of homogeneous moduli: one piece's strain is held, read at these times, not pulled
+  tester::Loading loading = {};  ///< of coupons
   /// At most two; specimens of each batch are tested on each of them. Empty: the only one, which is not noted.
   std::vector<std::string> machines = {};
 };

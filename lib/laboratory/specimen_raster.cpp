@@ -308,28 +308,51 @@ double branch_stiffness(double overstress, double relaxation_s, double rate_per_
                    (last - first);
 }
 
-/// What the phases gain by a pull faster than the usual one: soft, interface, rigid as in Constants.
-std::array<double, 3> power_law_factors(const HiddenEffects& effects, double rate_per_s) {
-  constexpr double kUsualRate = 6.17e-4;
-  const double soft = effects.rate_exponent, rigid = soft * effects.rate_exponent_ratio;
-  const double times = rate_per_s / kUsualRate;
-  return {std::pow(times, soft), std::pow(times, 0.5 * (soft + rigid)), std::pow(times, rigid)};
+/// The same of a held strain: the branch takes up stress during the ramp and relaxes.
+double branch_stiffness_held(double overstress, double relaxation_s, const Making& making) {
+  if (overstress == 0.0) return 1.0;
+  const double after = making.held_s - 0.5 * making.ramp_s, before = making.held_s + 0.5 * making.ramp_s;
+  return 1.0 + overstress * relaxation_s * (std::exp(-after / relaxation_s) - std::exp(-before / relaxation_s)) /
+                   making.ramp_s;
 }
 
-/// The constants of theta as a modulus test finds them, at its rate.
+double branch_stiffness(double overstress, double relaxation_s, const Making& making) {
+  return making.held_s > 0.0 ? branch_stiffness_held(overstress, relaxation_s, making)
+                             : branch_stiffness(overstress, relaxation_s, making.strain_rate_per_s);
+}
+
+/// What a phase gains by a pull faster than the usual one; or of a held strain, over that usual pull: both stresses are
+/// integrals of a relaxation function that falls as time to the power -n, n < 1.
+double power_law_factor(double exponent, const Making& making) {
+  constexpr double kUsualRate = 6.17e-4, kFirst = 0.0005, kLast = 0.0025;
+  if (making.held_s == 0.0) return std::pow(making.strain_rate_per_s / kUsualRate, exponent);
+  const auto integral = [&](double from, double to) {
+    return std::pow(to, 1.0 - exponent) - std::pow(from, 1.0 - exponent);
+  };
+  const double held = integral(making.held_s - 0.5 * making.ramp_s, making.held_s + 0.5 * making.ramp_s);
+  const double pulled = integral(kFirst / kUsualRate, kLast / kUsualRate) * kUsualRate / (kLast - kFirst);
+  return held / making.ramp_s / pulled;
+}
+
+/// Of soft, interface and rigid phase as in Constants.
+std::array<double, 3> power_law_factors(const HiddenEffects& effects, const Making& making) {
+  const double soft = effects.rate_exponent, rigid = soft * effects.rate_exponent_ratio;
+  return {power_law_factor(soft, making), power_law_factor(0.5 * (soft + rigid), making),
+          power_law_factor(rigid, making)};
+}
+
+/// The constants of theta as a modulus test finds them, at its rate or after its hold.
 Constants tested_constants(const Truth& truth, const Making& making) {
   const HiddenEffects& effects = truth.effects;
   Constants constants = as_laid(constants_of(truth.modulus), effects, making);
-  const double rate_per_s = making.strain_rate_per_s;
   constexpr double kLonger = 1000.0;
-  const double all =
-      branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s) *
-      (branch_stiffness(effects.two_overstresses, effects.shorter_relaxation_s, rate_per_s) +
-       branch_stiffness(effects.two_overstresses, kLonger * effects.shorter_relaxation_s, rate_per_s) - 1.0);
+  const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, making) *
+                     (branch_stiffness(effects.two_overstresses, effects.shorter_relaxation_s, making) +
+                      branch_stiffness(effects.two_overstresses, kLonger * effects.shorter_relaxation_s, making) - 1.0);
   for (double& young_pa : constants.young_pa) young_pa *= all;
-  constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, rate_per_s);
+  constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, making);
   if (effects.rate_exponent > 0.0) {
-    const std::array<double, 3> gained = power_law_factors(effects, rate_per_s);
+    const std::array<double, 3> gained = power_law_factors(effects, making);
     for (std::size_t phase = 0; phase < gained.size(); ++phase) constants.young_pa[phase] *= gained[phase];
   }
   return constants;

@@ -85,6 +85,8 @@ struct Making {
   double orientation_deg = 0.0;
   double thickness_mm = 3.2;
   double strain_rate_per_s = 6.17e-4;
+  double held_s = 0.0;            ///< since the middle of a ramp after which strain is held; 0: it is pulled
+  double ramp_s = 0.0;            ///< of that ramp
   double pull_rate_per_s = 20.0;  ///< of the fracture bench
   int specimen = 0;               ///< names the strength of its voxels where that scatters
 };

@@ -27,6 +27,7 @@ struct MeasureOptions {
   std::string orientation = "0";
   std::vector<double> rates_per_s = laboratory::Campaign{}.rates_per_s;
   std::vector<double> temperatures_c;
+  std::vector<double> holds_s;
   std::vector<std::string> machines;
   std::string loading;
   bool json = false;
@@ -42,6 +43,7 @@ int measure(const MeasureOptions& options) {
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
   campaign.rates_per_s = options.rates_per_s;
   campaign.temperatures_c = options.temperatures_c;
+  campaign.holds_s = options.holds_s;
   campaign.machines = options.machines;
   if (!options.loading.empty()) {
     const Result<tester::Loading> loading = tester::loading_from_string(options.loading);
@@ -91,6 +93,10 @@ void add_measure(CLI::App& app, Action& action) {
       .add_option("--temperature", options->temperatures_c,
                   "Temperatures, degrees C, at each of which moduli and coupons are tested")
       ->check(CLI::Range(laboratory::kColdestC, laboratory::kHottestC));
+  command
+      .add_option("--hold", options->holds_s,
+                  "Times, s, at which homogeneous moduli are read of one strain that is held, instead of pulls")
+      ->check(CLI::Range(0.4, 1e6));
   command
       .add_option("--machine", options->machines, "Names of one or two machines, on each of which every test is done")
       ->expected(1, 2);

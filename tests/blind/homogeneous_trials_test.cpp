@@ -109,6 +109,43 @@ TEST(BlindHomogeneousTrials, ASpringOfOneOfTwoMachinesIsNamed) {
   EXPECT_GT(diagnosis["gain"]["interval90"][0].get<double>(), 0.3);
 }
 
+/// As a person would: strains held on pieces of three materials, by the command line.
+nlohmann::json diagnosed_relaxation(const std::string& laboratory) {
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.folder() / "LAB.toml", set = scratch.folder() / "set";
+  std::ofstream(file) << laboratory;
+  output_of(std::string(NACRE_BINARY_DIR) + "/nacre measure --lab " + file.string() + " --out " + set.string() +
+            " --test modulus --hold 1 3 10 30 100 300 1000 -- soft interface rigid");
+  return diagnosed(set, "tiny");
+}
+
+TEST(BlindHomogeneousTrials, APowerLawIsNamedFromRelaxation) {
+  const nlohmann::json diagnosis = diagnosed_relaxation(laboratory(73, "rate_power_law", "[0.18, 0.2]"));
+  ASSERT_EQ(diagnosis["verdict"], "named") << diagnosis["summary"];
+  const nlohmann::json& effect = diagnosis["effects"][0];
+  EXPECT_EQ(effect["name"], "rate_dependence");
+  EXPECT_EQ(effect["form"], "power_law");
+  expect_parameter(effect, "soft_exponent", 0.18);
+  expect_parameter(effect, "rigid_exponent", 0.2 * 0.18);
+  EXPECT_GT(diagnosis["gain"]["interval90"][0].get<double>(), 0.5);
+}
+
+TEST(BlindHomogeneousTrials, OneRelaxationTimeIsNamedFromRelaxation) {
+  const nlohmann::json diagnosis = diagnosed_relaxation(laboratory(74, "rate_dependence", "[0.6, 20]"));
+  ASSERT_EQ(diagnosis["verdict"], "named") << diagnosis["summary"];
+  const nlohmann::json& effect = diagnosis["effects"][0];
+  EXPECT_EQ(effect["name"], "rate_dependence");
+  EXPECT_EQ(effect["form"], "maxwell");
+  EXPECT_LE(effect["interval90"][0].get<double>(), 0.6);
+  EXPECT_GE(effect["interval90"][1].get<double>(), 0.6);
+  EXPECT_NEAR(effect["further"][0].get<double>(), 20.0, 4.0);
+}
+
+TEST(BlindHomogeneousTrials, WhereNothingRelaxesNothingIsNamed) {
+  const nlohmann::json diagnosis = diagnosed_relaxation(laboratory(75));
+  EXPECT_EQ(diagnosis["verdict"], "base_sufficient") << diagnosis["summary"];
+}
+
 TEST(BlindHomogeneousTrials, NothingIsNamedWhereNothingActs) {
   for (int seed = 64; seed < 70; ++seed) {
     const OpenedTrial trial = run_trial(laboratory(seed), blends_at_four_rates, "tiny");

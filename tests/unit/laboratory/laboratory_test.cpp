@@ -330,6 +330,75 @@ TEST(Temperature, ShiftsTheRate) {
   EXPECT_NEAR(modulus(1e-3, 40.0) / modulus(1e-3 * rate_shift(40.0), 23.0), 1.0, 1e-12);
 }
 
+// Boltzmann: what is held for long after a short ramp averages to the chord of a pull over its times.
+TEST(HeldStrain, RelaxesByTheLawOfThePull) {
+  constexpr int kIntervals = 2000;
+  for (const int law : {0, 1, 2}) {
+    Truth truth = plain_truth();
+    if (law == 0) truth.effects.rate_exponent = 0.3, truth.effects.rate_exponent_ratio = 0.5;
+    if (law == 1) truth.effects.rate_overstress = 0.6, truth.effects.rate_relaxation_s = 40.0;
+    if (law == 2) truth.effects.two_overstresses = 0.5, truth.effects.shorter_relaxation_s = 20.0;
+    Experiment experiment{.design = pattern::Mixture{1.0}, .fidelity = truth.fidelity};
+    experiment.conditions.strain_rate_per_s = 1e-5;
+    const double pulled = respond(truth, experiment)->modulus_pa;
+    double mean = 0.0;
+    for (int i = 0; i < kIntervals; ++i) {
+      experiment.hold_s = (0.0005 + 0.002 * (i + 0.5) / kIntervals) / 1e-5;
+      mean += respond(truth, experiment)->modulus_pa / kIntervals;
+    }
+    EXPECT_NEAR(mean / pulled, 1.0, 1e-4) << law;
+  }
+}
+
+TEST(HeldStrain, WarmIsShort) {
+  Truth truth = plain_truth();
+  truth.effects.rate_overstress = 0.6;
+  truth.effects.rate_relaxation_s = 40.0;
+  const auto modulus = [&](double hold_s, double temperature_c) {
+    Experiment experiment{.design = pattern::Mixture{0.3}, .fidelity = truth.fidelity};
+    experiment.hold_s = hold_s;
+    experiment.temperature_c = temperature_c;
+    return respond(truth, experiment)->modulus_pa;
+  };
+  EXPECT_NEAR(modulus(30.0, 40.0) / modulus(30.0 / rate_shift(40.0), kReferenceC), 1.0, 1e-4);
+  EXPECT_LT(modulus(30.0, 40.0), modulus(30.0, kReferenceC));
+}
+
+TEST(HeldStrain, IsRefusedWhereItIsNotModelled) {
+  Truth truth = plain_truth();
+  Experiment experiment{.design = pattern::Mixture{0.3}, .test = TestKind::tensile, .fidelity = truth.fidelity};
+  experiment.hold_s = 10.0;
+  EXPECT_THAT(respond(truth, experiment).error().message, testing::HasSubstr("modulus tests of homogeneous"));
+  experiment.test = TestKind::modulus;
+  EXPECT_TRUE(respond(truth, experiment));
+  experiment.hold_s = 0.1;
+  EXPECT_THAT(respond(truth, experiment).error().message, testing::HasSubstr("expected at least 0.4"));
+}
+
+// The times of one piece: rows that share its scatter but for their readings, its place in the printer and its batch.
+TEST(Campaign, OnePieceIsHeldAndReadAtAllTimes) {
+  const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n[noise]\nmodulus = 0.1\n", "a");
+  Campaign campaign{{pattern::Mixture{1.0}, pattern::Mixture{0.0}}, {TestKind::modulus}};
+  campaign.holds_s = {1.0, 10.0, 100.0};
+  std::map<std::string, std::vector<measurement::SpecimenRecord>> pieces;
+  for (const auto& each : measure(truth, campaign)) pieces[each.other_columns.at("sample")].push_back(each);
+  ASSERT_EQ(pieces.size(), 4u);
+  for (const auto& [piece, rows] : pieces) {
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[1].specimen, piece + "-10s");
+    EXPECT_EQ(rows[1].other_columns.at("hold_s"), "10");
+    EXPECT_DOUBLE_EQ(rows[1].conditions.strain_rate_per_s, 1.375e-4);
+    EXPECT_EQ(rows[0].print_order, rows[2].print_order);
+    const double first = std::log(rows[0].modulus_pa.value()), last = std::log(rows[2].modulus_pa.value());
+    EXPECT_NE(first, last);
+    EXPECT_NEAR(first, last, 0.1) << "five deviations of a fifth of the scatter";
+  }
+  const auto of = [&](int k) {
+    return std::log(pieces.at("rigid-modulus-held-" + std::to_string(k))[0].modulus_pa.value());
+  };
+  EXPECT_GT(std::abs(of(1) - of(2)), 0.02) << "pieces differ";
+}
+
 TEST(Temperature, IsRefusedWhereItIsNotModelled) {
   const Truth truth = plain_truth();
   Experiment experiment{.design = pattern::Mixture{0.3}, .test = TestKind::toughness, .fidelity = truth.fidelity};
