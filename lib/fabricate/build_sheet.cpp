@@ -164,11 +164,12 @@ std::string specimen_row(const Job& job, const PlacedSpecimen& specimen) {
   const PrintModel& model = job.models[specimen.model];
   const WantedSpecimens& wanted = model.wanted;
   const SpecimenGeometry geometry = geometry_of(model.plan.kind);
-  return fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7:.6g},{8},{9},{10},{11},{12},,,,,\n", specimen.label,
-                     csv_cell(wanted.design.name()), tester::to_string(wanted.test), geometry.test_width_mm,
-                     wanted.thickness_mm, geometry.gauge_mm, wanted.orientation_deg, wanted.strain_rate_per_s,
-                     csv_cell(pull_in_words(wanted.loading)), job.batch(specimen.tray), specimen.print_order,
-                     csv_cell(wanted.order_id), specimen.tray);
+  return fmt::format(
+      "{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7:.6g},{8},{9},{10},{11},{12},,,,,\n", specimen.label,
+      csv_cell(wanted.design.name()), tester::to_string(wanted.test), geometry.test_width_mm, wanted.thickness_mm,
+      geometry.gauge_mm, wanted.orientation_deg, wanted.strain_rate_per_s,
+      csv_cell(wanted.loading.has_pauses() ? tester::to_string(wanted.loading) : pull_in_words(wanted.loading)),
+      job.batch(specimen.tray), specimen.print_order, csv_cell(wanted.order_id), specimen.tray);
 }
 
 void take_away(const std::filesystem::path& file) {

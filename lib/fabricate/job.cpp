@@ -134,12 +134,16 @@ void number(Job& job) {
 std::string pull_in_words(const tester::Loading& loading) {
   std::string words;
   double before = 0.0;
-  for (const double turn : loading.turns) {
-    const double percent = 100.0 * turn;
+  for (std::size_t i = 0; i < loading.turns.size(); ++i) {
+    const double turn = loading.turns[i], percent = 100.0 * turn;
     words += words.empty() ? fmt::format("to {:g} % strain", percent)
                            : fmt::format(", {} to {:g} %", turn < before ? "back" : "on", percent);
+    if (i < loading.holds_s.size() && loading.holds_s[i] > 0.0)
+      words += fmt::format(", held for {:g} s", loading.holds_s[i]);
     before = turn;
   }
+  if (loading.dwell_s) words += ", back to zero force";
+  if (loading.dwell_s.value_or(0.0) > 0.0) words += fmt::format(", left there for {:g} s", *loading.dwell_s);
   return words.empty() ? tester::to_string(loading) : words;
 }
 

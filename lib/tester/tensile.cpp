@@ -36,7 +36,7 @@ Result<Curve> pull_coupon(const material::ExtendedLaw& law, double rate_per_s,
 
 }  // namespace
 
-Result<Curve> test_tensile(const Simulation& simulation, const std::vector<double>& strain_history) {
+Result<material::ExtendedLaw> coupon_law(const Simulation& simulation) {
   if (std::string fault = simulation_fault(simulation, TestKind::tensile); !fault.empty())
     return fail("tensile tester: {}", fault);
   const pattern::Mixture* mixture = simulation.design.mixture();
@@ -49,20 +49,26 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
   extensions.shrinkage = 0.0;  // it shrinks freely, and is measured afterwards
+  if (!extensions.any()) return material::ExtendedLaw{.lame = lame};
+  const double threshold =
+      material::mixture(material::phases_of(simulation.parameters.toughness), mixture->rigid_fraction)
+          .threshold_j_per_m3;
+  return material::extended_law(extensions, lame, threshold, mixture->rigid_fraction);
+}
+
+Result<Curve> test_tensile(const Simulation& simulation, const std::vector<double>& strain_history) {
+  const auto law = coupon_law(simulation);
+  if (!law) return tl::unexpected(law.error());
   for (std::size_t i = 0; i < strain_history.size(); ++i)
     if (!(std::isfinite(strain_history[i]) && strain_history[i] > -1.0))
       return fail("tensile tester: strain {} at sample {}, expected a number above -1", strain_history[i], i);
-  if (extensions.any()) {
-    const double threshold =
-        material::mixture(material::phases_of(simulation.parameters.toughness), mixture->rigid_fraction)
-            .threshold_j_per_m3;
-    return pull_coupon(material::extended_law(extensions, lame, threshold, mixture->rigid_fraction),
-                       simulation.conditions.strain_rate_per_s, strain_history);
-  }
+  material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
+  extensions.shrinkage = 0.0;
+  if (extensions.any()) return pull_coupon(*law, simulation.conditions.strain_rate_per_s, strain_history);
   Curve curve;
   for (const double strain : strain_history) {
     curve.strain.push_back(strain);
-    curve.stress_pa.push_back(material::uniaxial_stress(strain, lame).nominal_stress_pa);
+    curve.stress_pa.push_back(material::uniaxial_stress(strain, law->lame).nominal_stress_pa);
   }
   return curve;
 }
