@@ -10,6 +10,7 @@
 #include "base/names.hpp"
 #include "measurement/held_strain.hpp"
 #include "measurement/limits.hpp"
+#include "measurement/pauses.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "pattern/coupons.hpp"
@@ -47,6 +48,7 @@ class RowParser {
     record.curve = curve();
     keep_other_columns(record);
     put_hold(record);
+    check_loading(record);
     check_consistency(record);
     if (fault_) return tl::unexpected(*fault_);
     return record;
@@ -216,7 +218,7 @@ class RowParser {
     if (!time_s || !(*time_s > 0.0) || !kStrainRatePerS.hold(rate_of_hold(*time_s)))
       return refuse(fmt::format("`{}`, expected a time in s from {:.1g} to {:.1g}", cell->second,
                                 rate_of_hold(kStrainRatePerS.most), rate_of_hold(kStrainRatePerS.least)));
-    if (record.test != tester::TestKind::modulus || !record.design.mixture() || !record.modulus_pa)
+    if (record.test != tester::TestKind::modulus || !record.design.mixture() || (!record.modulus_pa && !planned_))
       return refuse("expected a modulus_pa of the test `modulus` of a homogeneous material, its relaxation modulus");
     const double rate_per_s = rate_of_hold(*time_s);
     if (text(kStrainRate).empty()) record.conditions.strain_rate_per_s = rate_per_s;
@@ -224,6 +226,12 @@ class RowParser {
     if (std::abs(record.conditions.strain_rate_per_s / rate_per_s - 1.0) > kRounding)
       reject(kStrainRate, fmt::format("{} with a strain that was held for {} s, expected an empty cell or {:.4g}",
                                       record.conditions.strain_rate_per_s, *time_s, rate_per_s));
+  }
+
+  void check_loading(const SpecimenRecord& record) {
+    if (record.test != tester::TestKind::tensile) return;
+    if (const auto loading = pauses_of(record); !loading)
+      reject(std::string(kLoadingColumn), row_.line, loading.error().message);
   }
 
   /// A notched specimen does not determine the modulus, nor a modulus test the toughness.

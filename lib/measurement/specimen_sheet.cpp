@@ -18,6 +18,7 @@
 #include "measurement/tester_encoding.hpp"
 #include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
+#include "tester/loading.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::measurement {
@@ -25,7 +26,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
                                                        "width_mm", "thickness_mm", "gauge_mm"};
-/// `loading` is an instruction to the operator and is not read: the export has the actual loading.
+/// `loading` is an instruction to the operator: the export has the actual loading, but for the duration of pauses.
 constexpr std::array<std::string_view, 17> kOptional = {"part",
                                                         "test",
                                                         "orientation_deg",
@@ -77,6 +78,15 @@ class SheetReader {
   }
 
  private:
+  /// A programme with pauses of a coupon; what else stands there is for the person.
+  void keep_pauses(SpecimenRecord& record) {
+    const std::string programme = text("loading");
+    if (record.test != tester::TestKind::tensile || !programme.starts_with("strain")) return;
+    const auto loading = tester::loading_from_string(programme);
+    if (!loading) return reject("loading", loading.error().message);
+    if (loading->has_pauses()) record.other_columns["loading"] = programme;
+  }
+
   /// Empty lines, and the line in which a spreadsheet names its separator: `sep=;`.
   static bool is_before_heading(std::string_view line) {
     const std::string_view bare = trimmed(line);
@@ -288,6 +298,7 @@ class SheetReader {
     if (!valid.empty() && valid != "1" && valid != "true" && record.valid)
       reject("valid", fmt::format("`{}`, expected 0, 1, true or false", text("valid")));
     record.note = text("note");
+    keep_pauses(record);
     if (record.valid && record.test == tester::TestKind::tensile && !record.design.mixture())
       reject("pattern", fmt::format("`{}`: {}", text("pattern"), kTensileIsHomogeneous));
     std::string extension = text("extension_column");
