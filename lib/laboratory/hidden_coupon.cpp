@@ -78,13 +78,103 @@ class Strand {
     return v > 0.0 ? std::max(0.0, (1.0 + v - s) / (s * v)) : 1.0;
   }
 
-  const HiddenEffects& effects_;
+  HiddenEffects effects_;
   material::Lame lame_;
   double yield_pa_ = 1e30, inverse_limit_ = 0.0, overstress_ = 0.0, relaxation_s_ = 1.0, threshold_ = 1e30;
   double flow_ = 0.0, branch_ = 0.0, last_second_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
 };
 
+/// A strand on its way through a programme with pauses, which keeps what is recorded.
+class PausedStrand {
+ public:
+  PausedStrand(const Strand& strand, double rate_per_s) : strand_(strand), rate_per_s_(rate_per_s) {}
+
+  void pull_to(double strain, double step) {
+    const double from = recorded_.strain.back();
+    const int points = std::max(1, static_cast<int>(std::lround(std::abs(strain - from) / step)));
+    for (int i = 1; i <= points; ++i) pull_by((strain - from) / points);
+  }
+
+  void hold(double time_s) {
+    for (const double part : parts_of(time_s)) record(recorded_.strain.back(), part);
+  }
+
+  /// Back at the machine's rate, until no force is left.
+  void unload(double step) {
+    while (recorded_.stress_pa.back() > 0.0) {
+      const Strand before = strand_;
+      const double strain = recorded_.strain.back(), stress = recorded_.stress_pa.back();
+      pull_by(-step);
+      const double over = recorded_.stress_pa.back();
+      if (over > 0.0) continue;
+      strand_ = before;
+      recorded_.strain.back() = strain, recorded_.stress_pa.back() = stress;
+      pull_by(-step * stress / (stress - over));  // nearly straight over one step
+      recorded_.strain.erase(recorded_.strain.end() - 2);
+      recorded_.stress_pa.erase(recorded_.stress_pa.end() - 2);
+      break;
+    }
+  }
+
+  /// Without force: bisection, as the stress rises with the strain.
+  void dwell(double time_s) {
+    for (const double part : parts_of(time_s)) {
+      double high = recorded_.strain.back() + 1e-3, low = high - 0.1;
+      for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        Strand trial = strand_;
+        (trial.pull(middle, part) > 0.0 ? high : low) = middle;
+      }
+      record(0.5 * (low + high), part);
+      recorded_.stress_pa.back() = 0.0;
+    }
+  }
+
+  const tester::Curve& recorded() const { return recorded_; }
+
+ private:
+  /// Ever longer, so that the fast beginning is resolved.
+  static std::vector<double> parts_of(double time_s) {
+    constexpr int kParts = 24;
+    constexpr double kDecades = 3.0;
+    std::vector<double> parts;
+    double before = 0.0;
+    for (int i = 1; i <= kParts; ++i) {
+      const double until = time_s * std::pow(10.0, kDecades * (i - kParts) / kParts);
+      parts.push_back(until - before);
+      before = until;
+    }
+    return parts;
+  }
+  void record(double strain, double dt_s) {
+    recorded_.stress_pa.push_back(strand_.pull(strain, dt_s));
+    recorded_.strain.push_back(strain);
+  }
+  void pull_by(double way) {
+    constexpr int kSubsteps = 20;
+    const double from = recorded_.strain.back(), dt_s = std::abs(way) / kSubsteps / rate_per_s_;
+    for (int i = 1; i < kSubsteps; ++i) strand_.pull(from + way * i / kSubsteps, dt_s);
+    record(from + way, dt_s);
+  }
+
+  Strand strand_;
+  double rate_per_s_;
+  tester::Curve recorded_{.strain = {0.0}, .stress_pa = {0.0}};
+};
+
 }  // namespace
+
+tester::Curve paused_curve(const Truth& truth, double rigid_fraction, const Making& making,
+                           const tester::Loading& loading, double step) {
+  PausedStrand coupon(Strand(truth, rigid_fraction, making), making.strain_rate_per_s);
+  for (std::size_t i = 0; i < loading.turns.size(); ++i) {
+    coupon.pull_to(loading.turns[i], step);
+    if (i < loading.holds_s.size() && loading.holds_s[i] > 0.0) coupon.hold(loading.holds_s[i]);
+  }
+  if (loading.dwell_s) coupon.unload(step);
+  if (loading.dwell_s.value_or(0.0) > 0.0) coupon.dwell(*loading.dwell_s);
+  return coupon.recorded();
+}
 
 double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share) {
   constexpr double kStep = 2e-5, kMost = 2.0;

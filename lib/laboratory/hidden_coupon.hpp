@@ -4,6 +4,7 @@
 
 #include "laboratory/specimen_raster.hpp"
 #include "tester/curve.hpp"
+#include "tester/loading.hpp"
 
 namespace nacre::laboratory {
 
@@ -15,5 +16,10 @@ double coupon_strain(const Truth& truth, double rigid_fraction, const Making& ma
 /// hidden effects of its material. Stress of the softened coupon is the mean over its cross-section.
 tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making,
                            const std::vector<double>& strains);
+
+/// The same along a programme with pauses, about `step` of strain between its points: relaxing while strain is held,
+/// then unloaded to zero force and recovering there. Strain falls along the dwell, stress is zero.
+tester::Curve paused_curve(const Truth& truth, double rigid_fraction, const Making& making,
+                           const tester::Loading& loading, double step);
 
 }  // namespace nacre::laboratory

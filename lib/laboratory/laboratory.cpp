@@ -104,13 +104,26 @@ bool hides_a_curve(const HiddenEffects& effects) {
          effects.soft_overstress > 0.0 || effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
 }
 
+/// Strain between points of a curve along a programme.
+double strain_step(const tester::Loading& loading) {
+  double way = 0.0, last = 0.0;
+  for (const double turn : loading.turns) way += std::abs(turn - std::exchange(last, turn));
+  return way / (kCurvePoints - 1);
+}
+
+/// A warm material relaxes in less time.
+tester::Loading at_temperature(tester::Loading loading, double temperature_c) {
+  const double shift = rate_shift(temperature_c);
+  for (double& hold_s : loading.holds_s) hold_s /= shift;
+  if (loading.dwell_s) *loading.dwell_s /= shift;
+  return loading;
+}
+
 /// Where a coupon's curve is read: up to most of what it bears, or along the way that was ordered.
 std::vector<double> coupon_strains(const Truth& truth, const Experiment& experiment, double rigid_fraction) {
   tester::Loading loading = experiment.loading;
   if (loading.turns.empty()) loading = {{coupon_strain(truth, rigid_fraction, making_of(experiment), kCouponEnergy)}};
-  double way = 0.0, last = 0.0;
-  for (const double turn : loading.turns) way += std::abs(turn - std::exchange(last, turn));
-  return tester::strain_path(loading, way / (kCurvePoints - 1));
+  return tester::strain_path(loading, strain_step(loading));
 }
 
 Result<TrueResponse> respond_tensile(const Truth& in_layouts, const Experiment& experiment) {
@@ -118,6 +131,12 @@ Result<TrueResponse> respond_tensile(const Truth& in_layouts, const Experiment& 
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
   const Truth truth = as_coupons(in_layouts);
   TrueResponse response;
+  if (experiment.loading.has_pauses()) {
+    response.curve = paused_curve(truth, mixture->rigid_fraction, making_of(experiment),
+                                  at_temperature(experiment.loading, experiment.temperature_c.value_or(kReferenceC)),
+                                  strain_step(experiment.loading));
+    return response;
+  }
   const std::vector<double> strains = coupon_strains(truth, experiment, mixture->rigid_fraction);
   if (hides_a_curve(truth.effects)) {
     response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(experiment), strains);
@@ -288,6 +307,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
     record.conditions.strain_rate_per_s = measurement::rounded(measurement::rate_of_hold(*experiment.hold_s), 6);
     record.other_columns["hold_s"] = fmt::format("{:g}", *experiment.hold_s);
   }
+  if (experiment.loading.has_pauses()) record.other_columns["loading"] = tester::to_string(experiment.loading);
   if (!replicate.piece.empty()) record.other_columns["sample"] = replicate.piece;
   if (!replicate.machine.empty()) record.other_columns["machine"] = replicate.machine;
   record.valid = response.has_value();

@@ -100,8 +100,10 @@ void add_measure(CLI::App& app, Action& action) {
   command
       .add_option("--machine", options->machines, "Names of one or two machines, on each of which every test is done")
       ->expected(1, 2);
-  command.add_option("--loading", options->loading,
-                     "How coupons are pulled: monotonic, or to one strain after another (strain 0.02 0.005 0.022)");
+  command.add_option(
+      "--loading", options->loading,
+      "How coupons are pulled: monotonic, or to one strain after another (strain 0.02 0.005 0.022), also held and "
+      "unloaded to zero force (strain 0.02 hold 60 unload dwell 600)");
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -22,8 +22,10 @@
 #include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"
+#include "measurement/pauses.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/loading.hpp"
+#include "tester/paused_pull.hpp"
 #include "tester/tensile.hpp"
 #include "tester/toughness.hpp"
 
@@ -264,6 +266,35 @@ TEST(HiddenCoupons, AreUnloadedAsOrdered) {
   EXPECT_LT(stress_at_low_point(), 0.2 * elastic);
   experiment.test = tester::TestKind::modulus;
   EXPECT_FALSE(respond(truth, experiment)) << "nothing else is unloaded";
+}
+
+// Pauses mean in the laboratory what they mean in the tester: hold, set at zero force, set after a dwell.
+TEST(HiddenCoupons, AreHeldAndLeftAsInTheTester) {
+  const tester::Loading loading{{0.015}, {20.0}, 200.0};
+  for (const bool flows : {false, true}) {
+    Truth truth = unaffected_truth();
+    truth.coupons = {};
+    tester::Simulation simulation{pattern::Mixture{1.0}, material::default_parameters(), {}, tester::Fidelity::tiny};
+    simulation.parameters.modulus = truth.modulus;
+    simulation.parameters.toughness = truth.toughness;
+    if (flows) {
+      truth.effects.rigid_yield_pa = 1.2e7;
+      simulation.parameters.extensions["rigid_yield"] = {1.2e7};
+    } else {
+      truth.effects.rate_overstress = 0.6;
+      truth.effects.rate_relaxation_s = 30.0;
+      simulation.parameters.extensions["rate_dependence"] = {0.6, 30.0};
+    }
+    const Experiment experiment{.design = pattern::Mixture{1.0},
+                                .test = tester::TestKind::tensile,
+                                .fidelity = truth.fidelity,
+                                .loading = loading};
+    const auto measured = measurement::read_pauses(respond(truth, experiment)->curve, loading);
+    const auto expected = tester::pull_with_pauses(simulation, loading).value();
+    EXPECT_NEAR(measured.held_share.value(), *expected.held_stress_pa / expected.turn_stress_pa, 2e-3) << flows;
+    EXPECT_NEAR(measured.set_share.value(), *expected.set_strain / 0.015, 1e-3) << flows;
+    EXPECT_NEAR(measured.dwelled_share.value(), *expected.dwelled_strain / 0.015, 1e-3) << flows;
+  }
 }
 
 TEST(HiddenCoupons, YieldStiffenAndRelaxAsTheSimulatorsDo) {
