@@ -26,7 +26,10 @@ constexpr std::array<Names, kFeatureCount> kNames = {{{"log_modulus", "Young's m
                                                       {"tail", "energy after the peak"},
                                                       {"log_unloading", "slope on unloading"},
                                                       {"set_share", "permanent set"},
-                                                      {"toe_share", "offset of the toe"}}};
+                                                      {"toe_share", "offset of the toe"},
+                                                      {"log_held", "stress after a hold"},
+                                                      {"held_set", "set at zero force"},
+                                                      {"dwelled_set", "set after a dwell"}}};
 
 /// The rising part of a curve, strain never decreasing, up to its largest stress.
 struct Rise {
@@ -183,6 +186,12 @@ FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& r
     value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
   put_unloading(values, curve, reading);
   return values;
+}
+
+void put_pauses(FeatureValues& values, const measurement::PauseReadings& pauses) {
+  if (pauses.held_share && *pauses.held_share > 0.0) value_of(values, Feature::log_held) = std::log(*pauses.held_share);
+  value_of(values, Feature::held_set) = pauses.set_share;
+  value_of(values, Feature::dwelled_set) = pauses.dwelled_share;
 }
 
 bool is_unloaded(const tester::Curve& curve, const CurveReading& reading) {

@@ -8,6 +8,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/procedure.hpp"
+#include "measurement/pauses.hpp"
 #include "tester/curve.hpp"
 
 namespace nacre::diagnosis {
@@ -28,10 +29,13 @@ enum class Feature {
   log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins, or as far as
                     ///< it goes where that is to 80 % at least
   set_share,        ///< where that line meets zero stress, over the strain where unloading begins
-  toe_share,  ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as
-              ///< others)
+  toe_share,    ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as
+                ///< others)
+  log_held,     ///< stress at the end of a hold over the one at its beginning
+  held_set,     ///< strain at zero force over that of the turn, of coupons that were unloaded so far
+  dwelled_set,  ///< the same after a dwell
 };
-inline constexpr int kFeatureCount = 14;
+inline constexpr int kFeatureCount = 17;
 
 /// Name in files: `log_peak`.
 std::string_view to_string(Feature feature);
@@ -60,6 +64,9 @@ FeatureValues fracture_features(const tester::Curve& curve, const CurveReading& 
 /// (smoothing.hpp). `up_to`: strain to which the way up is read, of coupons that were unloaded at strains of their own.
 FeatureValues tensile_features(const tester::Curve& curve, const CurveReading& reading,
                                std::optional<double> up_to = std::nullopt);
+
+/// Adds what is read at the pauses of a coupon.
+void put_pauses(FeatureValues& values, const measurement::PauseReadings& pauses);
 
 /// Whether a tensile curve goes back on its way.
 bool is_unloaded(const tester::Curve& curve, const CurveReading& reading);

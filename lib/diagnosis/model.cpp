@@ -9,6 +9,7 @@
 #include "material/temperature_shift.hpp"
 #include "measurement/held_strain.hpp"
 #include "tester/modulus.hpp"
+#include "tester/paused_pull.hpp"
 #include "tester/relaxation.hpp"
 #include "tester/simulation_key.hpp"
 #include "tester/tensile.hpp"
@@ -30,6 +31,15 @@ tester::TestConditions simulated_conditions(const Observation& group, const mate
       material::equivalent_rate(conditions.strain_rate_per_s, set.extensions,
                                 group.surroundings.temperature_c.value_or(material::kReferenceTemperatureC));
   return conditions;
+}
+
+/// The programme with pauses as long as the specimen's response takes at the reference temperature.
+tester::Loading at_reference(const Observation& group, const material::ParameterSet& set) {
+  tester::Loading loading = group.pauses;
+  const double shift = simulated_conditions(group, set).strain_rate_per_s / group.conditions.strain_rate_per_s;
+  for (double& hold_s : loading.holds_s) hold_s /= shift;
+  if (loading.dwell_s) *loading.dwell_s /= shift;
+  return loading;
 }
 
 }  // namespace
@@ -54,6 +64,31 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
   if (!shown) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), shown.error().message));
   const auto end = carried_strain(group.curve, observations_.reading);
   return end ? tester::cut_at(*shown, *end) : *shown;
+}
+
+measurement::PauseReadings FeatureModel::pauses_of(const Observation& group, const material::ParameterSet& set) const {
+  constexpr int kPasses = 8;
+  const tester::Simulation coupon{group.design, simulated_side(set), simulated_conditions(group, set), fidelity_};
+  const auto as_recorded = [&](double strain, double stress_pa) {
+    return measurement::observe_curve({{strain}, {stress_pa}}, set.extensions, print_context(group)).strain.back();
+  };
+  // The machine turns at the strain that it records; what pauses show hardly depends on it.
+  const double turn = group.pauses.turns.front();
+  tester::Loading own = at_reference(group, set);
+  tester::PausedPull shown;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const auto pulled = tester::pull_with_pauses(coupon, own);
+    if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
+    shown = *pulled;
+    const double off = as_recorded(own.turns.front(), shown.turn_stress_pa) - turn;
+    if (std::abs(off) < 1e-6 * turn || own.turns.front() <= off) break;
+    own.turns.front() -= off;
+  }
+  measurement::PauseReadings readings;
+  if (shown.held_stress_pa) readings.held_share = *shown.held_stress_pa / shown.turn_stress_pa;
+  if (shown.set_strain) readings.set_share = as_recorded(*shown.set_strain, 0.0) / turn;
+  if (shown.dwelled_strain) readings.dwelled_share = as_recorded(*shown.dwelled_strain, 0.0) / turn;
+  return readings;
 }
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start,
@@ -171,6 +206,7 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
     without.extensions.erase("toe_slack");
     values = tensile_features(coupon_curve(g, without), observations_.reading, g.read_up_to);
   }
+  if (g.pauses.has_pauses()) put_pauses(values, pauses_of(g, set));
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[row].feature);
     rows[row] = value.value_or(unshown(values, observations_.rows[row].feature));

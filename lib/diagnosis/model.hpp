@@ -50,6 +50,8 @@ class FeatureModel {
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
 
  private:
+  /// What the pauses of a coupon show through the machine.
+  measurement::PauseReadings pauses_of(const Observation& group, const material::ParameterSet& set) const;
   measurement::PrintContext print_context(const Observation& group) const;
   /// E of a layout before the testing machine, remembered.
   double modulus(std::size_t group, const material::ParameterSet& set) const;

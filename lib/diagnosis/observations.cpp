@@ -13,6 +13,7 @@
 #include "diagnosis/scatter.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/observe.hpp"
+#include "measurement/pauses.hpp"
 #include "measurement/piece.hpp"
 #include "measurement/summary.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 using measurement::SpecimenRecord;
 using tester::TestKind;
 
-using GroupKey = std::tuple<int, std::string, double, double, double, bool, std::string>;
+using GroupKey = std::tuple<int, std::string, double, double, double, bool, std::string, std::string>;
 
 bool is_unloaded_coupon(const SpecimenRecord& specimen, const CurveReading& reading) {
   return specimen.test == TestKind::tensile && is_unloaded(specimen.curve, reading);
@@ -30,13 +31,27 @@ bool is_unloaded_coupon(const SpecimenRecord& specimen, const CurveReading& read
 
 GroupKey key_of(const SpecimenRecord& specimen, const CurveReading& reading) {
   const tester::TestConditions& c = specimen.conditions;
+  const tester::Loading pauses = measurement::pauses_of(specimen).value_or(tester::Loading{});
   return {static_cast<int>(specimen.test),
           specimen.design.name(),
           c.orientation_deg,
           c.strain_rate_per_s,
           c.thickness_mm,
           is_unloaded_coupon(specimen, reading),
-          measurement::nominal_surroundings(measurement::surroundings_of(specimen))};
+          measurement::nominal_surroundings(measurement::surroundings_of(specimen)),
+          pauses.has_pauses() ? tester::to_string(pauses) : ""};
+}
+
+/// The readings at the pauses of each coupon that has some, whose curve then ends at its turn.
+std::map<std::string, measurement::PauseReadings> take_pauses(std::vector<SpecimenRecord>& specimens) {
+  std::map<std::string, measurement::PauseReadings> readings;
+  for (SpecimenRecord& specimen : specimens) {
+    const tester::Loading pauses = measurement::pauses_of(specimen).value_or(tester::Loading{});
+    if (!pauses.has_pauses()) continue;
+    readings[specimen.specimen] = measurement::read_pauses(specimen.curve, pauses);
+    specimen.curve = measurement::first_pull(specimen.curve);
+  }
+  return readings;
 }
 
 FeatureValues features_of(const SpecimenRecord& specimen, const CurveReading& reading) {
@@ -124,6 +139,7 @@ Observation mean_of(const std::vector<Measured>& replicates, const CurveReading&
   group.conditions = first.conditions;
   group.surroundings = measurement::surroundings_of(first);
   group.unloaded = is_unloaded_coupon(first, reading);
+  group.pauses = measurement::pauses_of(first).value_or(tester::Loading{});
   group.replicates = static_cast<int>(replicates.size());
   int with_order = 0;
   for (const Measured& each : replicates) {
@@ -352,7 +368,8 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
                      const FractureDiscretisation& fracture, const Procedure& procedure) {
   const CurveReading& reading = procedure.curves;
   // Replicates in the order of their names: the same bits whatever the order of arrival.
-  const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
+  std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
+  const std::map<std::string, measurement::PauseReadings> pauses = take_pauses(nominal);
   const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
   double last_batch_step = 0.0;
@@ -386,6 +403,9 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       turn = common_turn(groups.back());
       for (Measured& each : groups.back()) each.features = tensile_features(each.specimen->curve, reading, turn);
     }
+    for (Measured& each : groups.back())
+      if (const auto own = pauses.find(each.specimen->specimen); own != pauses.end())
+        put_pauses(each.features, own->second);
     groups.back() = one_of_each_piece(groups.back());
     observations.groups.push_back(mean_of(groups.back(), reading));
     observations.groups.back().read_up_to = turn;

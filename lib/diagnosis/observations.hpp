@@ -15,6 +15,7 @@
 #include "diagnosis/procedure.hpp"
 #include "measurement/specimen_record.hpp"
 #include "measurement/surroundings.hpp"
+#include "tester/loading.hpp"
 
 namespace nacre::diagnosis {
 
@@ -27,6 +28,7 @@ struct Observation {
   measurement::Surroundings surroundings = {};  ///< of the first replicate
   int machine = 0;                              ///< its number in the order of the names of all machines, from 0
   bool unloaded = false;                        ///< a coupon that was unloaded on its way
+  tester::Loading pauses = {};                  ///< the programme of one with pauses; its curve ends at the turn
   std::optional<double> read_up_to = {};        ///< of unloaded ones: the strain that all replicates reach
   FeatureValues features;                       ///< means over the valid replicates
   int replicates = 0;                           ///< pieces: tests of one piece count once

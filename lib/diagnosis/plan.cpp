@@ -14,6 +14,7 @@
 #include "diagnosis/signatures.hpp"
 #include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
+#include "measurement/pauses.hpp"
 #include "tester/modulus.hpp"
 #include "tester/tensile.hpp"
 
@@ -22,6 +23,19 @@ namespace {
 
 using measurement::SpecimenRecord;
 using tester::TestKind;
+
+/// Strains along the programme of a planned coupon: one that is held occurs twice, without force none is left.
+std::vector<double> planned_strains(const SpecimenRecord& specimen) {
+  constexpr int kSteps = 40;
+  const tester::Loading pauses = measurement::pauses_of(specimen).value_or(tester::Loading{});
+  if (!pauses.has_pauses()) return unload_history();
+  std::vector<double> strains = tester::strain_path(pauses, pauses.turns.front() / kSteps);
+  const double last = strains.back();
+  strains.push_back(last);
+  if (pauses.dwell_s)
+    for (int i = kSteps - 1; i >= 0; --i) strains.push_back(last * i / kSteps);
+  return strains;
+}
 
 /// Values for specimens that have none: those of the start parameters.
 void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
@@ -37,7 +51,7 @@ void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& se
           tester::test_modulus({specimen.design, settings.start, specimen.conditions, settings.fidelity});
       if (result) specimen.modulus_pa = result->modulus_pa;
     } else if (specimen.test == TestKind::tensile) {
-      const std::vector<double> history = specimen.curve.empty() ? unload_history() : specimen.curve.strain;
+      const std::vector<double> history = specimen.curve.empty() ? planned_strains(specimen) : specimen.curve.strain;
       if (auto curve =
               tester::test_tensile({specimen.design, settings.start, specimen.conditions, settings.fidelity}, history))
         specimen.curve = *std::move(curve);

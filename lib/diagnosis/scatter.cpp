@@ -39,6 +39,9 @@ double assumed_sd(Feature f, const AssumedScatter& scatter) {
     case Feature::knee:
     case Feature::set_share:
     case Feature::toe_share:
+    case Feature::log_held:
+    case Feature::held_set:
+    case Feature::dwelled_set:
       return scatter.strain;
     default:
       return scatter.stress;

@@ -21,7 +21,7 @@ using diagnosis::ResidualRow;
 bool is_strain(Feature f) { return f == Feature::toe_strain; }
 bool is_logarithm(Feature f) {
   return !is_strain(f) && f != Feature::knee && f != Feature::tail && f != Feature::drop && f != Feature::set_share &&
-         f != Feature::toe_share;
+         f != Feature::toe_share && f != Feature::held_set && f != Feature::dwelled_set;
 }
 
 std::string unit_of(Feature feature) {

@@ -84,6 +84,27 @@ TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
   }
 }
 
+// At one rate both bend the pull and leave a set: what recovers at zero force is viscous, what stays has flowed.
+TEST(BlindCouponTrials, PausesTellAViscousMaterialFromAPlasticOne) {
+  const auto paused = [](std::uint64_t) {
+    std::vector<laboratory::Experiment> experiments;
+    for (const double fraction : {0.5, 0.75, 1.0})
+      experiments.push_back({.design = pattern::Mixture{fraction},
+                             .test = tester::TestKind::tensile,
+                             .loading = {{0.015}, {60.0}, 600.0}});
+    return experiments;
+  };
+  for (const auto& [name, value] : {std::pair{"rate_dependence", "[0.5, 40]"}, {"rigid_yield", "1.5e7"}}) {
+    const OpenedTrial trial = run_trial(laboratory(55, name, value), paused, "tiny");
+    ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+    ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
+    EXPECT_EQ(trial.diagnosis["effects"][0]["name"], name);
+    const double size = name == std::string("rigid_yield") ? 1.5e7 : 0.5;
+    EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), size, 0.05 * size);
+  }
+  EXPECT_EQ(run_trial(laboratory(56, "", ""), paused, "tiny").diagnosis["verdict"], "base_sufficient");
+}
+
 // Alone neither explains the curves: slack lies before the specimen carries, flow at its end.
 TEST(BlindCouponTrials, SlackAndFlowAtOnceAreBothNamed) {
   const OpenedTrial trial = run_trial(

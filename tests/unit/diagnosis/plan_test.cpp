@@ -63,6 +63,19 @@ TEST_F(Plans, CouponsAreThoseOfTheInksThatAreGiven) {
   EXPECT_LT(own, 0.6 * planned_yield());
 }
 
+// At one rate a relaxing material is a stiffer one; a hold and a dwell tell it from that, and from one that flows.
+TEST_F(Plans, PausesShowWhatAPullAtOneRateDoesNot) {
+  auto coupons = synthetic_coupons(settings_.start, {1e-3}, 3, 0.0, 1);
+  const double pulled = planned(coupons, "rate_dependence").signal_to_noise;
+  for (measurement::SpecimenRecord& each : coupons) {
+    each.curve = {};
+    each.other_columns["loading"] = "strain 0.015 hold 60 unload dwell 600";
+  }
+  const PlannedEffect paused = planned(coupons, "rate_dependence");
+  EXPECT_GT(paused.signal_to_noise, 1.5 * pulled);
+  EXPECT_EQ(paused.status, PlanStatus::told_apart);
+}
+
 // Flow has no signature until stress reaches the yield stress: the smallest effect is where it begins to show.
 TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   const auto pulled = [&](const material::ParameterSet& truth) { return synthetic_coupons(truth, {1e-3}, 3, 0.0, 1); };
