@@ -116,17 +116,14 @@ class PausedStrand {
     }
   }
 
-  /// Without force: bisection, as the stress rises with the strain.
+  /// Without force.
   void dwell(double time_s) {
+    constexpr int kSubsteps = 10;
     for (const double part : parts_of(time_s)) {
-      double high = recorded_.strain.back() + 1e-3, low = high - 0.1;
-      for (int i = 0; i < 50; ++i) {
-        const double middle = 0.5 * (low + high);
-        Strand trial = strand_;
-        (trial.pull(middle, part) > 0.0 ? high : low) = middle;
-      }
-      record(0.5 * (low + high), part);
-      recorded_.stress_pa.back() = 0.0;
+      double strain = recorded_.strain.back();
+      for (int i = 0; i < kSubsteps; ++i) strain = recovered(strain, part / kSubsteps);
+      recorded_.strain.push_back(strain);
+      recorded_.stress_pa.push_back(0.0);
     }
   }
 
@@ -145,6 +142,17 @@ class PausedStrand {
       before = until;
     }
     return parts;
+  }
+  /// Advances to the strain without force: bisection, as the stress rises with the strain.
+  double recovered(double strain, double dt_s) {
+    double high = strain + 1e-3, low = high - 0.1;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      Strand trial = strand_;
+      (trial.pull(middle, dt_s) > 0.0 ? high : low) = middle;
+    }
+    strand_.pull(0.5 * (low + high), dt_s);
+    return 0.5 * (low + high);
   }
   void record(double strain, double dt_s) {
     recorded_.stress_pa.push_back(strand_.pull(strain, dt_s));

@@ -12,13 +12,14 @@ namespace {
 
 constexpr double kOfTurn = 0.98, kAtTurn = 0.998, kNoForce = 0.01, kSomeForce = 0.1;
 
-/// The strain at which the coupon turns or is held: the middle one of the largest.
+/// The strain at which the coupon is held, the middle one of the largest; else the largest.
 double turn_strain(const tester::Curve& curve) {
   const double largest = *std::ranges::max_element(curve.strain);
   std::vector<double> near;
   for (const double strain : curve.strain)
     if (strain >= kOfTurn * largest) near.push_back(strain);
-  return std::max(kAtTurn * largest, quantile(std::move(near), 0.5));
+  const double middle = quantile(std::move(near), 0.5);
+  return middle >= kAtTurn * largest ? middle : largest;
 }
 
 std::size_t first_at_turn(const tester::Curve& curve, double strain) {
