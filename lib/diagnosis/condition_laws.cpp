@@ -87,13 +87,17 @@ FittedModel fitted_with(const Evidence& evidence, const Observations& observatio
   return *std::ranges::min_element(fits, {}, &FittedModel::chi2);
 }
 
-/// Free levels of the conditions without a law in place of others, and, of a law of the rate in free form, exponents.
-Observations freed(const Observations& observations, const std::vector<std::string>& factors, bool has_free_exponents,
-                   const NoiseRules& rules) {
-  if (has_free_exponents) return with_free_exponents(observations, factors, rules);
-  Observations levelled = observations;
-  levelled.levels = level_directions(observations, without_law(factors), rules.level_sd);
-  return levelled;
+/// Levels of the conditions without a law, and, of a law of the rate in free form, exponents.
+FreeLevels free_beside(const Observations& observations, const std::vector<std::string>& factors,
+                       bool has_free_exponents) {
+  if (has_free_exponents) return {factors_but_rate(observations, factors), true};
+  return {without_law(factors), false};
+}
+
+/// With these free in place of others.
+Observations freed(Observations observations, const FreeLevels& beside, const NoiseRules& rules) {
+  observations.levels = free_directions(observations, beside, rules);
+  return observations;
 }
 
 /// Chi squared, and what an effect has to be worth for each that the model holds.
@@ -123,12 +127,14 @@ std::vector<FittedModel> laws_that_fit(const Evidence& evidence, const Observati
   return fitting;
 }
 
-/// The laws, each once, of these models.
-std::vector<std::string> laws_among(const std::vector<FittedModel>& models) {
-  std::vector<std::string> laws;
+/// Of models with the same law the first.
+std::vector<FittedModel> one_of_each_law(const std::vector<FittedModel>& models) {
+  std::vector<FittedModel> first;
   for (const FittedModel& model : models)
-    if (std::ranges::count(laws, model.effects.back()) == 0) laws.push_back(model.effects.back());
-  return laws;
+    if (std::ranges::none_of(first,
+                             [&](const FittedModel& other) { return other.effects.back() == model.effects.back(); }))
+      first.push_back(model);
+  return first;
 }
 
 /// The decision for models with a law (several: forms of another effect), on observations without the levels that it
@@ -136,7 +142,8 @@ std::vector<std::string> laws_among(const std::vector<FittedModel>& models) {
 Decision named_with(const Evidence& evidence, Decision decision, std::vector<FittedModel> models,
                     Observations observations, const std::vector<std::string>& left) {
   const Procedure& rules = evidence.settings.procedure;
-  const Observations before = freed(evidence.observations, left, false, rules.noise);
+  const Observations before =
+      freed(evidence.observations, free_beside(evidence.observations, left, false), rules.noise);
   const ExactRefits refits{evidence.model, rules.fit};
   decision.gain = held_out_gain(before, evidence.base.fit,
                                 {.models = {models.front()}, .observations = &observations, .refits = &refits},
@@ -196,11 +203,13 @@ Decision with_condition_laws(const Evidence& evidence, Decision decision) {
     std::erase(others, condition);
     // Laws of the rate and of temperature say how it goes with the rate: free exponents would take their place.
     const bool stays_free = is_free && condition == "machine";
-    Observations observations = freed(evidence.observations, others, stays_free, rules.noise);
+    const FreeLevels free = free_beside(evidence.observations, others, stays_free);
+    Observations observations = freed(evidence.observations, free, rules.noise);
     std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, beside, condition);
     if (fitting.empty()) continue;
-    if (std::vector<std::string> rivals = laws_among(fitting); rivals.size() > 1) {
-      decision.rival_laws = std::move(rivals);
+    if (std::vector<FittedModel> rivals = one_of_each_law(fitting); rivals.size() > 1) {
+      decision.rivals = std::move(rivals);
+      decision.beside_rivals = free;
       continue;
     }
     std::erase_if(fitting, [count = fitting.front().effects.size()](const FittedModel& model) {
@@ -212,6 +221,7 @@ Decision with_condition_laws(const Evidence& evidence, Decision decision) {
     if (without - after < rules.gain.law_share * (without - with_levels)) continue;
     if (is_rate && after >= with_levels) continue;  // free exponents say as much, and differ between materials
     decision = std::move(with_law);
+    decision.beside = free;
     if (!stays_free)
       decision.finding = {.reason =
                               decision.possible.front().effects.size() > 1 ? Reason::two_effects : Reason::one_effect};

@@ -15,7 +15,8 @@ bool machines_are_compared(const Observations& observations);
 
 /// The decision with the law of each condition at work (material::condition_laws()) that explains the data in place of
 /// its levels; of the strain rate in free form where it also predicts held-out specimens better. Where several laws
-/// do, and none by NameRules::lead better than the next, levels stay, and the laws are Decision::rival_laws.
+/// do, and none by NameRules::lead better than the next, levels stay, and the best model of each is among
+/// Decision::rivals.
 Decision with_condition_laws(const Evidence& evidence, Decision decision);
 
 }  // namespace nacre::diagnosis

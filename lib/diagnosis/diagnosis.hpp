@@ -13,6 +13,7 @@
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "measurement/specimen_record.hpp"
+#include "measurement/surroundings.hpp"
 #include "pattern/design.hpp"
 #include "tester/curve.hpp"
 #include "tester/loading.hpp"
@@ -164,6 +165,8 @@ struct NextExperiment {
   tester::TestConditions conditions;
   int replicates = 3;
   tester::Loading loading = {};
+  measurement::Surroundings surroundings = {};
+  std::vector<std::string> machines = {};  ///< two: each piece on both; none: not noted in the data
   std::string reason;
 };
 

@@ -82,10 +82,13 @@ std::vector<std::vector<std::string>> sets_of(const std::vector<std::string>& fa
   return sets;
 }
 
-/// The columns, with the rest of each row's mean over `rows` taken off.
-void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows) {
+/// One more column: these rows of the values, less their mean over those of them that are measured, the first ones.
+void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows,
+                    Eigen::Index measured) {
+  std::vector<Eigen::Index> own = rows;
+  std::erase_if(own, [measured](Eigen::Index row) { return row >= measured; });
   Eigen::VectorXd column = Eigen::VectorXd::Zero(columns.rows());
-  column(rows) = values(rows).array() - values(rows).mean();
+  column(rows) = values(rows).array() - (own.empty() ? 0.0 : values(own).mean());
   columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
   columns.rightCols(1) = column;
 }
@@ -103,7 +106,8 @@ Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::v
   for (const auto& [whole, cells] : cells_of(observations, factors)) {
     for (const auto& [values, rows] : cells) {
       const Feature feature = observations.rows[rows.front()].feature;
-      if (feature == Feature::log_modulus || is_curve_stress(feature)) append_centred(columns, log_rate, rows);
+      if (feature == Feature::log_modulus || is_curve_stress(feature))
+        append_centred(columns, log_rate, rows, observations.values.size());
     }
   }
   return columns;
@@ -114,12 +118,12 @@ Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::v
 std::optional<double> exponent_scatter(const Observations& observations, const Eigen::MatrixXd& log_rates) {
   std::map<std::string, std::vector<double>> slopes;
   for (Eigen::Index k = 0; k < log_rates.cols(); ++k) {
-    const double length = log_rates.col(k).squaredNorm();
+    const auto own = log_rates.col(k).head(observations.values.size());
+    const double length = own.squaredNorm();
     Eigen::Index row = 0;
     if (length == 0.0) continue;
-    log_rates.col(k).cwiseAbs().maxCoeff(&row);
-    slopes[observations.group_of(static_cast<int>(row)).material()].push_back(
-        log_rates.col(k).dot(observations.values) / length);
+    own.cwiseAbs().maxCoeff(&row);
+    slopes[observations.group_of(static_cast<int>(row)).material()].push_back(own.dot(observations.values) / length);
   }
   double squares = 0.0, freedom = 0.0;
   for (const auto& [material, own] : slopes) {
@@ -167,12 +171,13 @@ Eigen::MatrixXd level_directions(const Observations& observations, const std::ve
   for (const auto& [whole, cells] : cells_of(observations, levelled)) {
     std::vector<Eigen::Index> all;
     for (const auto& [values, rows] : cells) all.insert(all.end(), rows.begin(), rows.end());
-    if (over_order) append_centred(directions, sd * order, all);
-    if (cells.size() < 2) continue;
+    if (over_order) append_centred(directions, sd * order, all, observations.values.size());
+    const bool is_measured = all.front() < observations.values.size();
+    if (cells.size() < 2 && is_measured) continue;
     for (const auto& [values, rows] : cells) {
       Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
       level(rows).setConstant(sd);
-      append_centred(directions, level, all);
+      append_centred(directions, level, all, observations.values.size());
     }
   }
   return directions;
@@ -210,23 +215,34 @@ std::vector<std::string> without_law(std::vector<std::string> factors) {
   return factors;
 }
 
-Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
-                                  const NoiseRules& rules) {
+std::vector<std::string> factors_but_rate(const Observations& observations, std::vector<std::string> factors) {
   std::erase(factors, kStrainRate);
   const std::string material(kMaterial);
   const auto has_material = [&](const std::vector<std::string>& of) { return std::ranges::count(of, material) > 0; };
   if (!has_material(factors) && has_material(varying_factors(observations))) factors.push_back(material);
-  observations.levels = level_directions(observations, factors, rules.level_sd);
+  return factors;
+}
+
+Eigen::MatrixXd free_directions(const Observations& observations, const FreeLevels& free, const NoiseRules& rules) {
+  Eigen::MatrixXd directions = level_directions(observations, free.factors, rules.level_sd);
+  if (!free.has_exponents) return directions;
+  const Eigen::MatrixXd log_rates = log_rates_within_others(observations, free.factors);
+  directions.conservativeResize(Eigen::NoChange, directions.cols() + log_rates.cols());
+  directions.rightCols(log_rates.cols()) =
+      exponent_scatter(observations, log_rates).value_or(rules.exponent_sd) * log_rates;
+  return directions;
+}
+
+Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
+                                  const NoiseRules& rules) {
+  observations.levels =
+      free_directions(observations, {factors_but_rate(observations, std::move(factors)), false}, rules);
   return observations;
 }
 
 Observations with_free_exponents(Observations observations, const std::vector<std::string>& factors,
                                  const NoiseRules& rules) {
-  const Eigen::MatrixXd log_rates = log_rates_within_others(observations, factors);
-  observations = with_levels_but_rate(std::move(observations), factors, rules);
-  observations.levels.conservativeResize(Eigen::NoChange, observations.levels.cols() + log_rates.cols());
-  observations.levels.rightCols(log_rates.cols()) =
-      exponent_scatter(observations, log_rates).value_or(rules.exponent_sd) * log_rates;
+  observations.levels = free_directions(observations, {factors_but_rate(observations, factors), true}, rules);
   return observations;
 }
 

@@ -188,6 +188,7 @@ Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest
                                 {.models = {law}, .observations = &freed.observations, .refits = &refits}, law.effects,
                                 rules.gain, evidence.settings.seed);
   decision.freed = std::make_shared<const Evidence>(std::move(freed));
+  decision.beside = {factors_but_rate(evidence.observations, factors), true};
   decision.finding = {
       .reason = Reason::free_form, .nearest = law.effects, .value = chance_of_misfit(evidence, nearest)};
   return decision;

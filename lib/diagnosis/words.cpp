@@ -340,6 +340,18 @@ std::string way_in_words(const TestWay& way) {
       return fmt::format("a laminate of period {} across the pull", way.period);
     case AddedTest::laminate_along:
       return fmt::format("a laminate of period {} along the pull", way.period);
+    case AddedTest::at_other_rate:
+      return "a further specimen at another strain rate";
+    case AddedTest::at_other_temperature:
+      return "a further specimen at another temperature";
+    case AddedTest::in_other_humidity:
+      return "a further specimen in another humidity";
+    case AddedTest::at_other_age:
+      return "a further specimen of another age";
+    case AddedTest::on_other_machine:
+      return "a measured specimen on another machine";
+    case AddedTest::on_two_machines:
+      return "one piece on two machines";
     default:
       break;
   }
@@ -364,7 +376,20 @@ std::string in_words(const std::vector<ModulusAtBound>& moduli) {
 }
 
 std::string in_words(const PossibleTest& test) {
-  return way_in_words(test.way) + (test.batch_step > 0.0 ? ", in a new batch" : "");
+  if (test.batch_step == 0.0) return way_in_words(test.way);
+  return way_in_words(test.way) + (test.is_of_measured_batch ? ", of the same batch" : ", in a new batch");
+}
+
+std::string surroundings_in_words(const NextExperiment& experiment) {
+  const measurement::Surroundings& s = experiment.surroundings;
+  std::string words;
+  if (s.temperature_c) words += fmt::format(", at {:.3g} C", *s.temperature_c);
+  if (s.humidity_pct) words += fmt::format(", in {:.3g} % humidity", *s.humidity_pct);
+  if (s.age_days) words += fmt::format(", {:.3g} days old", *s.age_days);
+  if (!experiment.machines.empty())
+    words += fmt::format(", on the machine{} \"{}\"", experiment.machines.size() > 1 ? "s" : "",
+                         fmt::join(experiment.machines, "\" and \""));
+  return words;
 }
 
 std::string_view in_words(DiscretisationChange change) {
@@ -426,8 +451,8 @@ std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& sp
 
 std::string in_words(const Separated& separated) {
   return fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors after their constants are refitted",
-                     in_words(separated.test), in_words(separated.by.feature), in_words(separated.one),
-                     in_words(separated.other), separated.by.errors);
+                     in_words(separated.test), in_words(separated.by.feature), separated.one, separated.other,
+                     separated.by.errors);
 }
 
 std::string in_words(const UntoldMaterial& untold) {
@@ -468,6 +493,8 @@ std::string bundle_in_words(const PossibleTest& test) {
     default:
       break;
   }
+  if (test.way.kind >= AddedTest::at_other_rate)
+    return fmt::format("moduli of {} specimens: {}", test.design.name(), way_in_words(test.way));
   if (is_twin(test.way.kind)) return fmt::format("{}, {} tests", in_words(test), tester::to_string(test.test));
   return "homogeneous coupons at several rates, unloaded on the way";
 }

@@ -18,6 +18,8 @@ std::string in_words(const std::vector<std::string>& effects);
 std::string in_words(const std::vector<ModulusAtBound>& moduli);
 /// "a twin printed turned by 90 degrees"
 std::string in_words(const PossibleTest& test);
+/// ", at 40 C, on the machine "B"": of what is noted; empty where nothing is.
+std::string surroundings_in_words(const NextExperiment& experiment);
 /// "half the element size"
 std::string_view in_words(DiscretisationChange change);
 /// "effect interface_anisotropy", "family geometry", "measurement side"; empty: nothing.
@@ -28,11 +30,11 @@ std::string in_words(const RowsOf& rows);
 /// A sentence with a space in front on valid specimens that no row is made of (observe()); empty where there are none.
 std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Why a test is proposed: it separates two models, given by their effects; or it tells a material's own E.
+/// Why a test is proposed: it separates two explanations, given in words; or it tells a material's own E.
 struct Separated {
   const PossibleTest& test;
   Separation by;
-  const std::vector<std::string>&one, &other;
+  std::string one, other;
 };
 std::string in_words(const Separated& separated);
 struct UntoldMaterial {
