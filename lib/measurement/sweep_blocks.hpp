@@ -1,5 +1,6 @@
 #pragma once
-// Second stage of reading a frequency sweep: lines -> tables with a column of frequency and one of storage modulus.
+// Second stage of reading a frequency sweep: lines -> tables with a column of frequency, or one frequency above
+// them, and one of storage modulus.
 
 #include <optional>
 #include <string>
