@@ -30,9 +30,12 @@ inline constexpr std::array<std::string_view, kColumnCount> kColumns = {
     "batch",    "print_order", "thickness_mm", "modulus_pa",      "toughness_pa",
     "curve",    "valid",       "note"};
 
-/// Surroundings of a test, and which piece it was made of: kept like any other column, but known to a diagnosis.
-inline constexpr std::array<std::string_view, 4> kConditionColumns = {"sample", "temperature_c", "humidity_pct",
-                                                                      "age_days"};
+/// The order in which a machine made its tests: a number.
+inline constexpr std::string_view kTestOrderColumn = "test_order";
+
+/// Surroundings of a test, when it was made, and of which piece: kept like any other column, but known to a diagnosis.
+inline constexpr std::array<std::string_view, 5> kConditionColumns = {"sample", "temperature_c", "humidity_pct",
+                                                                      "age_days", kTestOrderColumn};
 
 /// Further columns that `nacre import` writes: kept with the specimen like any other column, but known.
 inline constexpr std::array<std::string_view, 11> kHistoryColumns = {"date",
