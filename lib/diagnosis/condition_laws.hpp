@@ -9,8 +9,7 @@
 
 namespace nacre::diagnosis {
 
-/// Whether the difference between two machines is theirs: a piece or a batch was tested on both. Where there are other
-/// than two machines no law can be told.
+/// Whether the differences between machines are theirs: pieces or batches that were tested on several connect them all.
 bool machines_are_compared(const Observations& observations);
 
 /// The decision with the law of each condition at work (material::condition_laws()) that explains the data in place of

@@ -215,7 +215,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
   for (const FittedModel& rival : decision.rivals) diagnosis.cautions.rival_laws.push_back(rival.effects.back());
   const std::vector<std::string> told = told_factors(evidence.factors);
-  diagnosis.cautions.machines_not_compared = observations.machines.size() == 2 &&
+  diagnosis.cautions.machines_not_compared = observations.machines.size() > 1 &&
                                              std::ranges::count(told, "machine") > 0 &&
                                              !machines_are_compared(observations);
   if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(plain(evidence), diagnosis.contrasts.front());

@@ -79,6 +79,7 @@ struct NamedEffect {
   std::string unit;
   std::vector<FittedNumber> further = {};  ///< further parameters of the effect, in the order of material::Effect
   std::vector<FittedNumber> derived = {};  ///< Effect::derived, in its order (is_told())
+  std::vector<std::string> each = {};      ///< Effect::one_for_each: what parameter and further ones are of
 };
 
 enum class CandidateStatus {

@@ -43,16 +43,6 @@ bool are_homogeneous(const std::vector<Observation>& groups) {
   });
 }
 
-/// How many values a factor has where it varies most: within one material, or over the materials.
-std::size_t most_values(const Observations& observations, const std::string& factor) {
-  std::map<std::string, std::set<std::string>> values;
-  for (const Observation& group : observations.groups)
-    values[factor == kMaterial ? "" : group.material()].insert(value_of(group, factor));
-  std::size_t most = 0;
-  for (const auto& [material, own] : values) most = std::max(most, own.size());
-  return most;
-}
-
 /// Rows of means by test, feature, material (all where "material" is a factor) and the values of the factors.
 using Cells = std::map<std::string, std::vector<Eigen::Index>>;
 std::map<std::string, Cells> cells_of(const Observations& observations, const std::vector<std::string>& factors) {
@@ -147,6 +137,15 @@ Eigen::VectorXd trend_over_order(const Observations& observations) {
 }
 
 }  // namespace
+
+std::size_t most_values(const Observations& observations, const std::string& factor) {
+  std::map<std::string, std::set<std::string>> values;
+  for (const Observation& group : observations.groups)
+    values[factor == kMaterial ? "" : group.material()].insert(value_of(group, factor));
+  std::size_t most = 0;
+  for (const auto& [material, own] : values) most = std::max(most, own.size());
+  return most;
+}
 
 std::vector<std::string> varying_factors(const Observations& observations) {
   if (observations.groups.empty() || !are_homogeneous(observations.groups)) return {};

@@ -13,6 +13,9 @@ namespace nacre::diagnosis {
 /// and more; none unless all specimens are homogeneous and none is notched.
 std::vector<std::string> varying_factors(const Observations& observations);
 
+/// How many values a factor has where it varies most: within one material, or over the materials.
+std::size_t most_values(const Observations& observations, const std::string& factor);
+
 /// One free level for every combination of these factors' values in each material and feature, as columns over the
 /// rows: one standard deviation each. They are no levels of a material as a whole, but where "material" is among them:
 /// those of its measured rows, the ones that have a value (others are to be predicted), have a mean of zero.

@@ -41,6 +41,7 @@ ordered_json json_of(const NamedEffect& e) {
     json["further"].push_back(number.value);
     json["further_interval90"].push_back({number.interval_low, number.interval_high});
   }
+  if (!e.each.empty()) json["each"] = e.each;
   if (!effect.form.empty()) json["form"] = effect.form;
   if (!effect.derived.empty()) json["parameters"] = parameters_of(e, effect);
   return json;

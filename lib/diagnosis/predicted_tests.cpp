@@ -136,10 +136,14 @@ PredictedTests::PredictedTests(const Evidence& evidence, const std::vector<Expla
   added_.reading = measured_.reading;
   added_.constant_sd = measured_.constant_sd;
   added_.machines = measured_.machines;
+  added_.materials = measured_.materials;
   same_errors_ = rules.tests.same_errors;
   const FittedModel& first = explanations.front().model;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     Observation group = group_of(tests[t], replicates);
+    const auto material = std::ranges::find(measured_.materials, group.material());
+    if (material != measured_.materials.end())
+      group.material_number = static_cast<int>(material - measured_.materials.begin());
     if (group.test == TestKind::tensile) {
       const CoordinateMap map = evidence.model.map(first.effects);
       group.curve = coupon_curve(tests[t], parameters_for(tests[t], map, first.u), fidelity);
@@ -232,6 +236,7 @@ PredictedTests::Hypothesis PredictedTests::hypothesis_of(const Explanation& expl
                         .added = std::move(added),
                         .beside = explanation.beside,
                         .levels = free_directions(all, explanation.beside, rules),
+                        .level_count = level_directions(all, explanation.beside.factors, rules.level_sd).cols(),
                         .whitener = Whitener(measured_.covariance()),
                         .predicted = {},
                         .columns = {},
@@ -318,8 +323,16 @@ double PredictedTests::growth(const NewRow& row, std::size_t truth, std::size_t 
   apart -= slopes.dot(refit.step) + row.whitened.dot(refit.left);
   // Uncertainty of the constants after the measured rows, as far as it moves this row against them.
   const Eigen::VectorXd open = slopes(model.free).transpose() - other.columns.topRows(n).transpose() * row.whitened;
-  const double variance = row.variance + open.dot(other.information.solve(open)) + freer;
-  return apart * apart / variance;
+  const double variance = row.variance + open.dot(other.information.solve(open));
+  if (has_open_level(row.row, right)) return apart * apart / (variance + freer);
+  return (apart * apart + freer) / variance;
+}
+
+bool PredictedTests::has_open_level(int row, const Hypothesis& hypothesis) const {
+  const int n = measured_.size();
+  for (Eigen::Index k = 0; k < hypothesis.level_count; ++k)
+    if (hypothesis.levels(n + row, k) != 0.0 && hypothesis.levels.col(k).head(n).isZero()) return true;
+  return false;
 }
 
 std::vector<Separation> PredictedTests::separations(

@@ -47,6 +47,7 @@ class PredictedTests {
     FittedModel added;
     FreeLevels beside;
     Eigen::MatrixXd levels;                    ///< of the measured and the added rows, one standard deviation each
+    Eigen::Index level_count = 0;              ///< the first of them; others are of exponents
     Whitener whitener;                         ///< of the measured rows
     Eigen::VectorXd predicted;                 ///< measured and added rows, with the levels as they are expected
     Eigen::MatrixXd columns;                   ///< FittedModel::whitened_columns()
@@ -72,8 +73,11 @@ class PredictedTests {
   /// Whether one is the other with effects added, beside the same levels.
   static bool holds(const Hypothesis& whole, const Hypothesis& part);
   /// Of chi squared of the wrong model with the row, its constants refitted. `freer`: by how much the variance of the
-  /// row is larger by the true model, where that leaves the level of a new condition open.
+  /// row is larger by the true model. What that expects elsewhere tells as much as what it predicts; but where it
+  /// leaves the level of a new condition open it predicts nothing.
   double growth(const NewRow& row, std::size_t truth, std::size_t wrong, double freer) const;
+  /// Whether no measured row has the level of an added one.
+  bool has_open_level(int row, const Hypothesis& hypothesis) const;
 
   Observations measured_;                  ///< without the levels of any explanation
   double same_errors_ = 0.0;               ///< TestRules::same_errors

@@ -21,23 +21,43 @@ std::string with_interval(const FittedNumber& number, std::string_view unit) {
                      number.interval_low, number.interval_high);
 }
 
+/// Parameter and further ones: a number of each.
+std::vector<FittedNumber> numbers_of(const NamedEffect& e) {
+  std::vector<FittedNumber> numbers = {{e.parameter, e.interval_low, e.interval_high}};
+  numbers.insert(numbers.end(), e.further.begin(), e.further.end());
+  return numbers;
+}
+
 /// "a compliance of the machine "old" = 1e-10 1/Pa (90 % interval ...) beyond that of "new"".
-std::string machine_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
-  const bool is_second = e.parameter > 0.0;
-  const std::string &one = machines[is_second ? 1 : 0], &other = machines[is_second ? 0 : 1];
+std::string machine_in_words(const NamedEffect& e, std::size_t k, const std::string& first) {
+  const FittedNumber number = numbers_of(e)[k];
+  const std::string& machine = e.each[k];
   if (e.name == "gain_of_one_machine")
-    return fmt::format("a gain of the machine \"{}\", which reads {} times as much as \"{}\"", machines[1],
-                       with_interval({1.0 + e.parameter, 1.0 + e.interval_low, 1.0 + e.interval_high}, "1"),
-                       machines[0]);
-  const auto [low, high] = std::minmax({std::abs(e.interval_low), std::abs(e.interval_high)});
-  return fmt::format("a compliance of the machine \"{}\" = {} beyond that of \"{}\"", one,
-                     with_interval({std::abs(e.parameter), low, high}, e.unit), other);
+    return fmt::format("a gain of the machine \"{}\", which reads {} times as much as \"{}\"", machine,
+                       with_interval({1.0 + number.value, 1.0 + number.interval_low, 1.0 + number.interval_high}, "1"),
+                       first);
+  const bool is_second = number.value > 0.0;
+  const auto [low, high] = std::minmax({std::abs(number.interval_low), std::abs(number.interval_high)});
+  return fmt::format("a compliance of the machine \"{}\" = {} beyond that of \"{}\"", is_second ? machine : first,
+                     with_interval({std::abs(number.value), low, high}, e.unit), is_second ? first : machine);
+}
+
+/// A number for each machine but the first, or for each material.
+std::string each_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
+  const bool are_machines = material::find_effect(e.name)->one_for_each == "machine";
+  const std::string first = machines.size() > e.each.size() ? machines.front() : "not noted";
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < e.each.size(); ++k)
+    words.push_back(are_machines ? machine_in_words(e, k, first)
+                                 : fmt::format("{} of {} = {}", material::effect_in_words(e.name), e.each[k],
+                                               with_interval(numbers_of(e)[k], e.unit)));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and the further parameters of an effect.
 std::string size_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
   const material::Effect& effect = *material::find_effect(e.name);
-  if (effect.law_of == "machine" && machines.size() == 2) return machine_in_words(e, machines);
+  if (!e.each.empty()) return each_in_words(e, machines);
   if (!e.derived.empty()) {
     std::vector<std::string> told;
     for (std::size_t p = 0; p < e.derived.size(); ++p)
@@ -280,7 +300,8 @@ std::string alike_in_words(const Diagnosis& d) {
 /// Why machines that differ get no law.
 std::string machines_in_words(const Cautions& cautions) {
   if (cautions.machines_not_compared)
-    return " What differs between the machines may be the specimens: no piece and no batch was tested on both.";
+    return " What differs between the machines may be the specimens: no piece and no batch was tested on both, or on "
+           "all.";
   if (cautions.rival_laws.empty()) return "";
   std::vector<std::string> laws;
   for (const std::string& law : cautions.rival_laws) laws.push_back(material::effect_in_words(law));
