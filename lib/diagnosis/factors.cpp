@@ -37,12 +37,6 @@ std::string values_of(const Observation& group, const std::vector<std::string>& 
   return values;
 }
 
-bool are_homogeneous(const std::vector<Observation>& groups) {
-  return std::ranges::all_of(groups, [](const Observation& group) {
-    return group.design.mixture() != nullptr && group.test != tester::TestKind::toughness;
-  });
-}
-
 /// Rows of means by test, feature, material (all where "material" is a factor) and the values of the factors.
 using Cells = std::map<std::string, std::vector<Eigen::Index>>;
 std::map<std::string, Cells> cells_of(const Observations& observations, const std::vector<std::string>& factors) {
@@ -147,8 +141,25 @@ std::size_t most_values(const Observations& observations, const std::string& fac
   return most;
 }
 
+bool has_layouts(const Observations& observations) {
+  return std::ranges::any_of(observations.groups, [](const Observation& group) { return group.design.layout(); });
+}
+
+namespace {
+
+/// Layouts have no levels of orientation, thickness or rate: effects of the library tell these. Where they were tested
+/// under conditions that no effect knows, or on several machines, they have.
+bool may_have_levels(const Observations& observations) {
+  if (observations.groups.empty() || observations.has(tester::TestKind::toughness)) return false;
+  return !has_layouts(observations) || std::ranges::any_of(descriptors(), [&](const Descriptor& descriptor) {
+    return is_without_law(descriptor.name) && most_values(observations, descriptor.name) > 1;
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> varying_factors(const Observations& observations) {
-  if (observations.groups.empty() || !are_homogeneous(observations.groups)) return {};
+  if (!may_have_levels(observations)) return {};
   std::vector<std::string> factors;
   for (const Descriptor& descriptor : descriptors())
     if (is_condition(descriptor.name) && most_values(observations, descriptor.name) > 1)
@@ -156,6 +167,7 @@ std::vector<std::string> varying_factors(const Observations& observations) {
   // What was chosen comes before what happened.
   std::ranges::stable_partition(factors,
                                 [](const std::string& factor) { return factor != kPrintOrder && factor != "batch"; });
+  if (has_layouts(observations)) return factors;
   constexpr std::size_t kConstants = 2;  // E of rigid and soft: the base fits any two materials
   const std::string material(kMaterial);
   if (most_values(observations, material) > kConstants) factors.push_back(material);

@@ -9,8 +9,11 @@
 
 namespace nacre::diagnosis {
 
-/// Conditions that vary over the groups, batch and print order behind the others, and "material" where there are three
-/// and more; none unless all specimens are homogeneous and none is notched.
+bool has_layouts(const Observations& observations);
+
+/// Conditions that vary over the groups, batch and print order behind the others, and of homogeneous specimens alone
+/// "material" where there are three and more. None where specimens are notched, or where there are layouts and neither
+/// temperature, humidity, age nor machine varies.
 std::vector<std::string> varying_factors(const Observations& observations);
 
 /// How many values a factor has where it varies most: within one material, or over the materials.

@@ -9,6 +9,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "made_specimens.hpp"
 #include "material/rate_laws.hpp"
+#include "synthetic_set.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -154,6 +155,35 @@ TEST(ConditionLaws, AThirdMachineThatSharesNoPrintsIsNotBlamed) {
   const Diagnosis diagnosis = diagnose(specimens, quick_settings());
   EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
   EXPECT_TRUE(diagnosis.cautions.machines_not_compared);
+}
+
+/// Six layouts and the base materials, every replicate a batch, each on both machines.
+std::vector<measurement::SpecimenRecord> layouts_on_two_machines(const material::Extensions& of_second) {
+  const material::ParameterSet truth = synthetic_truth();
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({.patterns = 6, .twins = 0}, truth);
+  for (measurement::SpecimenRecord& specimen : synthetic_base_materials(truth)) specimens.push_back(specimen);
+  const std::size_t count = specimens.size();
+  RandomStream noise(5, "test/factors");
+  for (std::size_t i = 0; i < count; ++i) {
+    specimens[i].batch = "batch-" + std::to_string(1 + i % 3);
+    measurement::SpecimenRecord again = specimens[i];
+    specimens[i].other_columns["machine"] = "A";
+    again.specimen += " again";
+    again.other_columns["machine"] = "B";
+    again.modulus_pa =
+        measurement::observe_modulus(*again.modulus_pa, of_second, {.machine = 1}) * std::exp(0.015 * noise.normal());
+    specimens.push_back(again);
+  }
+  return specimens;
+}
+
+// What a machine does to all specimens it does to layouts too.
+TEST(ConditionLaws, MachinesAreBlamedAlsoWhereThereAreLayouts) {
+  const Diagnosis diagnosis = diagnose(layouts_on_two_machines({{"gain_of_one_machine", {0.2}}}), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.effects.front().name, "gain_of_one_machine");
+  EXPECT_NEAR(diagnosis.effects.front().parameter, 0.2, 0.03);
 }
 
 /// Rigid and soft specimens at each of these values.
