@@ -16,6 +16,14 @@
 namespace nacre::diagnosis {
 namespace {
 
+/// Whether a law says less than the levels that it replaces: there is a value of its condition more than it has numbers
+/// for each material, beside the level of that. Laws of machines say less where there are several materials, and that
+/// of temperature where there are several rates.
+bool says_less_than_levels(const material::Effect& law, const Observations& observations) {
+  if (law.law_of == "machine" || law.law_of == "temperature") return true;
+  return most_values(observations, std::string(law.law_of)) >= law.parameters.size() + 2;
+}
+
 /// Laws of a condition that these data may tell. The one of temperature shifts the rate: there must be a law of that.
 std::vector<std::string> laws_of(std::string_view condition, const Observations& observations,
                                  const FittedModel& decided) {
@@ -23,12 +31,13 @@ std::vector<std::string> laws_of(std::string_view condition, const Observations&
   if (condition == "temperature" && !have_rate_law(decided.effects)) return {};
   std::vector<std::string> laws;
   for (const material::Effect& law : material::condition_laws())
-    if (law.law_of == condition) laws.emplace_back(law.name);
+    if (law.law_of == condition && says_less_than_levels(law, observations)) laws.emplace_back(law.name);
   return laws;
 }
 
 /// Where descents to a law begin: every one of these sizes, of either sign, with every one of a few values of each of
-/// its further parameters. A law with two times has several local minima.
+/// its further parameters. A law with two times has several local minima; one with a number for each machine or
+/// material is nearly linear in them.
 std::vector<Eigen::VectorXd> starts_of(const CoordinateMap& map, const FittedModel& decided,
                                        std::span<const double> sizes) {
   constexpr std::array kShares = {0.2, 0.5, 0.8};
@@ -41,6 +50,7 @@ std::vector<Eigen::VectorXd> starts_of(const CoordinateMap& map, const FittedMod
       starts.back()[own] = signed_size;
     }
   }
+  if (!material::find_effect(map.effects().back())->one_for_each.empty()) return starts;
   for (int further = own + 1; further < map.size(); ++further) {
     const std::vector<Eigen::VectorXd> so_far = std::exchange(starts, {});
     for (const Eigen::VectorXd& start : so_far) {
@@ -87,13 +97,17 @@ FittedModel fitted_with(const Evidence& evidence, const Observations& observatio
   return *std::ranges::min_element(fits, {}, &FittedModel::chi2);
 }
 
-/// Free levels of the conditions without a law in place of others, and, of a law of the rate in free form, exponents.
-Observations freed(const Observations& observations, const std::vector<std::string>& factors, bool has_free_exponents,
-                   const NoiseRules& rules) {
-  if (has_free_exponents) return with_free_exponents(observations, factors, rules);
-  Observations levelled = observations;
-  levelled.levels = level_directions(observations, without_law(factors), rules.level_sd);
-  return levelled;
+/// Levels of the conditions without a law, and, of a law of the rate in free form, exponents.
+FreeLevels free_beside(const Observations& observations, const std::vector<std::string>& factors,
+                       bool has_free_exponents) {
+  if (has_free_exponents) return {factors_but_rate(observations, factors), true};
+  return {without_law(factors), false};
+}
+
+/// With these free in place of others.
+Observations freed(Observations observations, const FreeLevels& beside, const NoiseRules& rules) {
+  observations.levels = free_directions(observations, beside, rules);
+  return observations;
 }
 
 /// Chi squared, and what an effect has to be worth for each that the model holds.
@@ -123,12 +137,14 @@ std::vector<FittedModel> laws_that_fit(const Evidence& evidence, const Observati
   return fitting;
 }
 
-/// The laws, each once, of these models.
-std::vector<std::string> laws_among(const std::vector<FittedModel>& models) {
-  std::vector<std::string> laws;
+/// Of models with the same law the first.
+std::vector<FittedModel> one_of_each_law(const std::vector<FittedModel>& models) {
+  std::vector<FittedModel> first;
   for (const FittedModel& model : models)
-    if (std::ranges::count(laws, model.effects.back()) == 0) laws.push_back(model.effects.back());
-  return laws;
+    if (std::ranges::none_of(first,
+                             [&](const FittedModel& other) { return other.effects.back() == model.effects.back(); }))
+      first.push_back(model);
+  return first;
 }
 
 /// The decision for models with a law (several: forms of another effect), on observations without the levels that it
@@ -136,7 +152,8 @@ std::vector<std::string> laws_among(const std::vector<FittedModel>& models) {
 Decision named_with(const Evidence& evidence, Decision decision, std::vector<FittedModel> models,
                     Observations observations, const std::vector<std::string>& left) {
   const Procedure& rules = evidence.settings.procedure;
-  const Observations before = freed(evidence.observations, left, false, rules.noise);
+  const Observations before =
+      freed(evidence.observations, free_beside(evidence.observations, left, false), rules.noise);
   const ExactRefits refits{evidence.model, rules.fit};
   decision.gain = held_out_gain(before, evidence.base.fit,
                                 {.models = {models.front()}, .observations = &observations, .refits = &refits},
@@ -170,14 +187,24 @@ double error_with_levels(const Evidence& evidence, const Decision& decision) {
 }  // namespace
 
 bool machines_are_compared(const Observations& observations) {
-  if (observations.machines.size() != 2) return false;
-  std::array<std::set<std::string>, 2> tested;
+  if (observations.machines.size() < 2) return false;
+  std::vector<std::set<std::string>> tested(observations.machines.size());
   for (const Observation& group : observations.groups) {
     std::set<std::string>& own = tested[group.machine];
     for (const std::string& piece : group.pieces) own.insert("piece " + piece);
     for (const std::string& batch : group.batches) own.insert("batch " + batch);
   }
-  return std::ranges::any_of(tested[0], [&](const std::string& name) { return tested[1].contains(name); });
+  std::set<std::string> connected = std::exchange(tested.front(), {});
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::set<std::string>& own : tested) {
+      if (std::ranges::none_of(own, [&](const std::string& name) { return connected.contains(name); })) continue;
+      connected.merge(own);
+      own.clear();
+      grows = true;
+    }
+  }
+  return std::ranges::all_of(tested, [](const std::set<std::string>& own) { return own.empty(); });
 }
 
 Decision with_condition_laws(const Evidence& evidence, Decision decision) {
@@ -195,12 +222,14 @@ Decision with_condition_laws(const Evidence& evidence, Decision decision) {
     std::vector<std::string> others = left;
     std::erase(others, condition);
     // Laws of the rate and of temperature say how it goes with the rate: free exponents would take their place.
-    const bool stays_free = is_free && condition == "machine";
-    Observations observations = freed(evidence.observations, others, stays_free, rules.noise);
+    const bool stays_free = is_free && !is_rate && condition != "temperature";
+    const FreeLevels free = free_beside(evidence.observations, others, stays_free);
+    Observations observations = freed(evidence.observations, free, rules.noise);
     std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, beside, condition);
     if (fitting.empty()) continue;
-    if (std::vector<std::string> rivals = laws_among(fitting); rivals.size() > 1) {
-      decision.rival_laws = std::move(rivals);
+    if (std::vector<FittedModel> rivals = one_of_each_law(fitting); rivals.size() > 1) {
+      decision.rivals = std::move(rivals);
+      decision.beside_rivals = free;
       continue;
     }
     std::erase_if(fitting, [count = fitting.front().effects.size()](const FittedModel& model) {
@@ -212,6 +241,7 @@ Decision with_condition_laws(const Evidence& evidence, Decision decision) {
     if (without - after < rules.gain.law_share * (without - with_levels)) continue;
     if (is_rate && after >= with_levels) continue;  // free exponents say as much, and differ between materials
     decision = std::move(with_law);
+    decision.beside = free;
     if (!stays_free)
       decision.finding = {.reason =
                               decision.possible.front().effects.size() > 1 ? Reason::two_effects : Reason::one_effect};

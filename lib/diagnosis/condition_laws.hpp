@@ -9,13 +9,13 @@
 
 namespace nacre::diagnosis {
 
-/// Whether the difference between two machines is theirs: a piece or a batch was tested on both. Where there are other
-/// than two machines no law can be told.
+/// Whether the differences between machines are theirs: pieces or batches that were tested on several connect them all.
 bool machines_are_compared(const Observations& observations);
 
 /// The decision with the law of each condition at work (material::condition_laws()) that explains the data in place of
 /// its levels; of the strain rate in free form where it also predicts held-out specimens better. Where several laws
-/// do, and none by NameRules::lead better than the next, levels stay, and the laws are Decision::rival_laws.
+/// do, and none by NameRules::lead better than the next, levels stay, and the best model of each is among
+/// Decision::rivals.
 Decision with_condition_laws(const Evidence& evidence, Decision decision);
 
 }  // namespace nacre::diagnosis

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/result.hpp"
+#include "material/surroundings_laws.hpp"
 #include "material/temperature_shift.hpp"
 
 namespace nacre::diagnosis {
@@ -169,7 +170,7 @@ std::vector<Descriptor> descriptors() {
       {"temperature", condition_without_law,
        [](const Observation& g) { return g.surroundings.temperature_c.value_or(material::kReferenceTemperatureC); }},
       {"humidity", condition_without_law,
-       [](const Observation& g) { return g.surroundings.humidity_pct.value_or(50.0); }},
+       [](const Observation& g) { return g.surroundings.humidity_pct.value_or(material::kReferenceHumidityPct); }},
       {"age", condition_without_law,
        [](const Observation& g) { return std::log1p(g.surroundings.age_days.value_or(0.0)); }},
       {"machine", condition_without_law, [](const Observation& g) { return static_cast<double>(g.machine); }},

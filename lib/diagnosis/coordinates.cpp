@@ -20,7 +20,11 @@ Bounds searched_bounds(const material::ParameterRange& range, bool logarithmic, 
 }
 
 CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects)
-    : centre_(basis.centre), rules_(basis.rules), effects_(effects.begin(), effects.end()) {
+    : centre_(basis.centre),
+      rules_(basis.rules),
+      machines_(basis.machines),
+      materials_(basis.materials),
+      effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
@@ -43,13 +47,19 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
   for (const std::string& name : effects_) {
     const material::Effect* effect = material::find_effect(name);
     assert(effect != nullptr);
-    for (int p = 0; p < static_cast<int>(effect->parameters.size()); ++p) extension_.push_back({effect, p});
+    for (int p = 0; p < count_of(*effect); ++p) extension_.push_back({effect, p});
   }
 }
 
 const material::EffectParameter& CoordinateMap::parameter_of(int i) const {
   const EffectCoordinate& c = extension_[i - base_count()];
-  return c.effect->parameters[c.parameter];
+  return c.effect->parameter(c.parameter);
+}
+
+int CoordinateMap::count_of(const material::Effect& effect) const {
+  if (effect.one_for_each == "machine") return std::max(1, machines_ - 1);
+  if (effect.one_for_each == "material") return std::max(1, materials_);
+  return static_cast<int>(effect.parameters.size());
 }
 
 double CoordinateMap::lower(int i) const {

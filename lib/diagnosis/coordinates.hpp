@@ -25,6 +25,7 @@ struct Basis {
       material::default_parameters();  ///< centre of the search for eta, and values of constants that are not searched
   material::ParameterRanges ranges = material::default_ranges();  ///< of theta and the bulk constants
   ConstantRules rules = {};
+  int machines = 1, materials = 1;  ///< of the data, homogeneous materials
 };
 
 /// One parameter of one effect.
@@ -58,6 +59,8 @@ class CoordinateMap {
   double value(int i, double u) const;
   /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.
   double usual(int i) const;
+  /// Number of coordinates of an effect.
+  int count_of(const material::Effect& effect) const;
   /// First coordinate of the effect with this index among effects().
   int first_coordinate(std::size_t effect) const;
   /// Parameters of layouts.
@@ -83,6 +86,7 @@ class CoordinateMap {
 
   material::ParameterSet centre_;
   ConstantRules rules_;
+  int machines_ = 1, materials_ = 1;
   std::vector<BaseCoordinate> base_;
   std::vector<std::string> effects_;
   std::vector<EffectCoordinate> extension_;

@@ -11,6 +11,7 @@
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
+#include "diagnosis/explanations.hpp"
 #include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/misfit.hpp"
@@ -86,34 +87,6 @@ std::pair<Feature, tester::TestKind> shown_scatter(const Observations& observati
   if (observations.has(TestKind::modulus)) return {Feature::log_modulus, TestKind::modulus};
   if (observations.has(TestKind::toughness)) return {Feature::log_toughness, TestKind::toughness};
   return {Feature::log_peak, TestKind::tensile};
-}
-
-/// Every effect at its usual size on top of the base.
-std::vector<FittedModel> usual_effects(const Evidence& evidence) {
-  const FitRules& rules = evidence.settings.procedure.fit;
-  std::vector<FittedModel> models;
-  for (const std::string& effect : evidence.effects) {
-    const CoordinateMap map = evidence.model.map({{effect}});
-    Eigen::VectorXd u = widened_start(evidence.base.fit, map);
-    u[map.base_count()] = std::min(rules.sizes[rules.typical], map.upper(map.base_count()));
-    models.push_back(linearised(evidence.model, {effect}, u));
-  }
-  return models;
-}
-
-/// Models that the next test should separate: the rivals left, the effects that come nearest to an unexplained misfit,
-/// or, where nothing would show, each effect from the base.
-std::vector<FittedModel> models_to_separate(const Evidence& evidence, const Decision& decision) {
-  if (decision.verdict == Verdict::ambiguous) return decision.possible;
-  if (decision.verdict == Verdict::named) return {decision.possible.front(), evidence.base.fit};
-  if (decision.verdict == Verdict::base_sufficient) return {};
-  std::vector<FittedModel> models =
-      decision.verdict == Verdict::insufficient ? usual_effects(evidence) : evidence.singles;
-  std::stable_sort(models.begin(), models.end(),
-                   [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
-  if (decision.verdict == Verdict::unexplained) models.resize(std::min<std::size_t>(models.size(), 3));
-  models.push_back(evidence.base.fit);
-  return models;
 }
 
 /// A model fitted to all data at the size of its effect that a part of them told.
@@ -226,7 +199,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   report(0.95, "choosing the next experiments");
   const CoordinateMap map = evidence.model.map(decided.effects);
   diagnosis.next_experiments =
-      next_experiments(evidence, models_to_separate(evidence, decision), settings.procedure.tests);
+      next_experiments(evidence, explanations_to_separate(evidence, decision), settings.procedure.tests);
   if (!decision.untold.empty())
     diagnosis.next_experiments =
         specimens_of_materials(observations, decision.untold, settings.procedure.tests.replicates);
@@ -240,9 +213,9 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.cautions = cautions_of(observations, diagnosis, settings);
   diagnosis.cautions.at_bounds = map.moduli_at_bounds(decided.u);
   diagnosis.cautions.out_of_line = groups_out_of_line(specimens);
-  diagnosis.cautions.rival_laws = decision.rival_laws;
+  for (const FittedModel& rival : decision.rivals) diagnosis.cautions.rival_laws.push_back(rival.effects.back());
   const std::vector<std::string> told = told_factors(evidence.factors);
-  diagnosis.cautions.machines_not_compared = observations.machines.size() == 2 &&
+  diagnosis.cautions.machines_not_compared = observations.machines.size() > 1 &&
                                              std::ranges::count(told, "machine") > 0 &&
                                              !machines_are_compared(observations);
   if (lines_up(diagnosis)) diagnosis.cautions.alike = conditions_alike(plain(evidence), diagnosis.contrasts.front());

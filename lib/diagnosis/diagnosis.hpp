@@ -13,6 +13,7 @@
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "measurement/specimen_record.hpp"
+#include "measurement/surroundings.hpp"
 #include "pattern/design.hpp"
 #include "tester/curve.hpp"
 #include "tester/loading.hpp"
@@ -78,6 +79,7 @@ struct NamedEffect {
   std::string unit;
   std::vector<FittedNumber> further = {};  ///< further parameters of the effect, in the order of material::Effect
   std::vector<FittedNumber> derived = {};  ///< Effect::derived, in its order (is_told())
+  std::vector<std::string> each = {};      ///< Effect::one_for_each: what parameter and further ones are of
 };
 
 enum class CandidateStatus {
@@ -164,6 +166,8 @@ struct NextExperiment {
   tester::TestConditions conditions;
   int replicates = 3;
   tester::Loading loading = {};
+  measurement::Surroundings surroundings = {};
+  std::vector<std::string> machines = {};  ///< two: each piece on both; none: not noted in the data
   std::string reason;
 };
 

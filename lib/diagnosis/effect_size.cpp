@@ -131,7 +131,7 @@ std::vector<FittedNumber> derived_numbers(const Evidence& evidence, FittedModel 
   named.free_all();
   const CoordinateMap map = evidence.model.map(named.effects);
   const material::Effect& effect = *material::find_effect(named.effects[k]);
-  const int first = map.first_coordinate(k), count = static_cast<int>(effect.parameters.size());
+  const int first = map.first_coordinate(k), count = map.count_of(effect);
   const auto number = [&](const material::DerivedNumber& derived, const Eigen::VectorXd& u) {
     std::vector<double> parameters;
     for (int p = 0; p < count; ++p) parameters.push_back(map.value(first + p, u[first + p]));
@@ -175,9 +175,13 @@ NamedModel measure_size(const Evidence& evidence, const FittedModel& named) {
     const FittedNumber size = in_units(map, i, interval);
     model.effects.push_back({std::string(effect.name), std::string(effect.family), size.value, size.interval_low,
                              size.interval_high, std::string(effect.parameters.front().unit)});
-    for (int p = 1; p < static_cast<int>(effect.parameters.size()); ++p)
+    for (int p = 1; p < map.count_of(effect); ++p)
       model.effects.back().further.push_back(in_units(map, i + p, by_covariance(evidence, named, i + p)));
     model.effects.back().derived = derived_numbers(evidence, named, k);
+    const Observations& observations = evidence.observations;
+    if (effect.one_for_each == "material") model.effects.back().each = observations.materials;
+    if (effect.one_for_each == "machine" && !observations.machines.empty())
+      model.effects.back().each.assign(observations.machines.begin() + 1, observations.machines.end());
     middles[i] = interval.middle;
     held.push_back(i);
   }

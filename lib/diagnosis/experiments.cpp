@@ -31,12 +31,12 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t models) {
 
 }  // namespace
 
-std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
+std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<Explanation>& explanations,
                                              const TestRules& rules) {
-  if (models.size() < 2) return {};
+  if (explanations.size() < 2) return {};
   const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence, rules);
-  const PredictedTests predicted(evidence, models, tests, rules.replicates);
-  const auto pairs = pairs_of(models.size());
+  const PredictedTests predicted(evidence, explanations, tests, rules.replicates);
+  const auto pairs = pairs_of(explanations.size());
   std::vector<TestValue> values(tests.size());
   parallel_for(static_cast<int>(tests.size()), [&](int job) {
     const auto t = static_cast<std::size_t>(job);
@@ -48,8 +48,19 @@ std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
     const tester::Loading loading = test.test == TestKind::tensile ? coupon_loading() : tester::Loading{};
-    experiments.push_back({test.design, test.test, test.conditions, rules.replicates, loading,
-                           in_words(Separated{test, separation, models[a].effects, models[b].effects})});
+    std::vector<std::string> machines;
+    if (!test.surroundings.machine.empty()) machines.push_back(test.surroundings.machine);
+    if (test.second_machine) machines.push_back(evidence.observations.machines[*test.second_machine]);
+    const std::string reason =
+        in_words(Separated{test, separation, in_words(explanations[a]), in_words(explanations[b])});
+    experiments.push_back({.design = test.design,
+                           .test = test.test,
+                           .conditions = test.conditions,
+                           .replicates = rules.replicates,
+                           .loading = loading,
+                           .surroundings = test.surroundings,
+                           .machines = std::move(machines),
+                           .reason = reason});
   }
   return experiments;
 }
@@ -58,9 +69,11 @@ std::vector<NextExperiment> specimens_of_materials(const Observations& observati
                                                    const std::vector<ModulusAtBound>& moduli, int replicates) {
   std::vector<NextExperiment> experiments;
   for (const ModulusAtBound& each : moduli) {
-    experiments.push_back({*pattern::design_from_name(kConstantMaterials[each.material]), TestKind::modulus,
-                           usual_conditions(observations, TestKind::modulus), replicates, tester::Loading{},
-                           in_words(UntoldMaterial{each})});
+    experiments.push_back({.design = *pattern::design_from_name(kConstantMaterials[each.material]),
+                           .test = TestKind::modulus,
+                           .conditions = usual_conditions(observations, TestKind::modulus),
+                           .replicates = replicates,
+                           .reason = in_words(UntoldMaterial{each})});
   }
   return experiments;
 }

@@ -37,22 +37,6 @@ std::string values_of(const Observation& group, const std::vector<std::string>& 
   return values;
 }
 
-bool are_homogeneous(const std::vector<Observation>& groups) {
-  return std::ranges::all_of(groups, [](const Observation& group) {
-    return group.design.mixture() != nullptr && group.test != tester::TestKind::toughness;
-  });
-}
-
-/// How many values a factor has where it varies most: within one material, or over the materials.
-std::size_t most_values(const Observations& observations, const std::string& factor) {
-  std::map<std::string, std::set<std::string>> values;
-  for (const Observation& group : observations.groups)
-    values[factor == kMaterial ? "" : group.material()].insert(value_of(group, factor));
-  std::size_t most = 0;
-  for (const auto& [material, own] : values) most = std::max(most, own.size());
-  return most;
-}
-
 /// Rows of means by test, feature, material (all where "material" is a factor) and the values of the factors.
 using Cells = std::map<std::string, std::vector<Eigen::Index>>;
 std::map<std::string, Cells> cells_of(const Observations& observations, const std::vector<std::string>& factors) {
@@ -82,10 +66,13 @@ std::vector<std::vector<std::string>> sets_of(const std::vector<std::string>& fa
   return sets;
 }
 
-/// The columns, with the rest of each row's mean over `rows` taken off.
-void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows) {
+/// One more column: these rows of the values, less their mean over those of them that are measured, the first ones.
+void append_centred(Eigen::MatrixXd& columns, const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows,
+                    Eigen::Index measured) {
+  std::vector<Eigen::Index> own = rows;
+  std::erase_if(own, [measured](Eigen::Index row) { return row >= measured; });
   Eigen::VectorXd column = Eigen::VectorXd::Zero(columns.rows());
-  column(rows) = values(rows).array() - values(rows).mean();
+  column(rows) = values(rows).array() - (own.empty() ? 0.0 : values(own).mean());
   columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
   columns.rightCols(1) = column;
 }
@@ -103,7 +90,8 @@ Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::v
   for (const auto& [whole, cells] : cells_of(observations, factors)) {
     for (const auto& [values, rows] : cells) {
       const Feature feature = observations.rows[rows.front()].feature;
-      if (feature == Feature::log_modulus || is_curve_stress(feature)) append_centred(columns, log_rate, rows);
+      if (feature == Feature::log_modulus || is_curve_stress(feature))
+        append_centred(columns, log_rate, rows, observations.values.size());
     }
   }
   return columns;
@@ -114,12 +102,12 @@ Eigen::MatrixXd log_rates_within_others(const Observations& observations, std::v
 std::optional<double> exponent_scatter(const Observations& observations, const Eigen::MatrixXd& log_rates) {
   std::map<std::string, std::vector<double>> slopes;
   for (Eigen::Index k = 0; k < log_rates.cols(); ++k) {
-    const double length = log_rates.col(k).squaredNorm();
+    const auto own = log_rates.col(k).head(observations.values.size());
+    const double length = own.squaredNorm();
     Eigen::Index row = 0;
     if (length == 0.0) continue;
-    log_rates.col(k).cwiseAbs().maxCoeff(&row);
-    slopes[observations.group_of(static_cast<int>(row)).material()].push_back(
-        log_rates.col(k).dot(observations.values) / length);
+    own.cwiseAbs().maxCoeff(&row);
+    slopes[observations.group_of(static_cast<int>(row)).material()].push_back(own.dot(observations.values) / length);
   }
   double squares = 0.0, freedom = 0.0;
   for (const auto& [material, own] : slopes) {
@@ -144,8 +132,34 @@ Eigen::VectorXd trend_over_order(const Observations& observations) {
 
 }  // namespace
 
+std::size_t most_values(const Observations& observations, const std::string& factor) {
+  std::map<std::string, std::set<std::string>> values;
+  for (const Observation& group : observations.groups)
+    values[factor == kMaterial ? "" : group.material()].insert(value_of(group, factor));
+  std::size_t most = 0;
+  for (const auto& [material, own] : values) most = std::max(most, own.size());
+  return most;
+}
+
+bool has_layouts(const Observations& observations) {
+  return std::ranges::any_of(observations.groups, [](const Observation& group) { return group.design.layout(); });
+}
+
+namespace {
+
+/// Layouts have no levels of orientation, thickness or rate: effects of the library tell these. Where they were tested
+/// under conditions that no effect knows, or on several machines, they have.
+bool may_have_levels(const Observations& observations) {
+  if (observations.groups.empty() || observations.has(tester::TestKind::toughness)) return false;
+  return !has_layouts(observations) || std::ranges::any_of(descriptors(), [&](const Descriptor& descriptor) {
+    return is_without_law(descriptor.name) && most_values(observations, descriptor.name) > 1;
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> varying_factors(const Observations& observations) {
-  if (observations.groups.empty() || !are_homogeneous(observations.groups)) return {};
+  if (!may_have_levels(observations)) return {};
   std::vector<std::string> factors;
   for (const Descriptor& descriptor : descriptors())
     if (is_condition(descriptor.name) && most_values(observations, descriptor.name) > 1)
@@ -153,6 +167,7 @@ std::vector<std::string> varying_factors(const Observations& observations) {
   // What was chosen comes before what happened.
   std::ranges::stable_partition(factors,
                                 [](const std::string& factor) { return factor != kPrintOrder && factor != "batch"; });
+  if (has_layouts(observations)) return factors;
   constexpr std::size_t kConstants = 2;  // E of rigid and soft: the base fits any two materials
   const std::string material(kMaterial);
   if (most_values(observations, material) > kConstants) factors.push_back(material);
@@ -167,12 +182,13 @@ Eigen::MatrixXd level_directions(const Observations& observations, const std::ve
   for (const auto& [whole, cells] : cells_of(observations, levelled)) {
     std::vector<Eigen::Index> all;
     for (const auto& [values, rows] : cells) all.insert(all.end(), rows.begin(), rows.end());
-    if (over_order) append_centred(directions, sd * order, all);
-    if (cells.size() < 2) continue;
+    if (over_order) append_centred(directions, sd * order, all, observations.values.size());
+    const bool is_measured = all.front() < observations.values.size();
+    if (cells.size() < 2 && is_measured) continue;
     for (const auto& [values, rows] : cells) {
       Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
       level(rows).setConstant(sd);
-      append_centred(directions, level, all);
+      append_centred(directions, level, all, observations.values.size());
     }
   }
   return directions;
@@ -210,23 +226,34 @@ std::vector<std::string> without_law(std::vector<std::string> factors) {
   return factors;
 }
 
-Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
-                                  const NoiseRules& rules) {
+std::vector<std::string> factors_but_rate(const Observations& observations, std::vector<std::string> factors) {
   std::erase(factors, kStrainRate);
   const std::string material(kMaterial);
   const auto has_material = [&](const std::vector<std::string>& of) { return std::ranges::count(of, material) > 0; };
   if (!has_material(factors) && has_material(varying_factors(observations))) factors.push_back(material);
-  observations.levels = level_directions(observations, factors, rules.level_sd);
+  return factors;
+}
+
+Eigen::MatrixXd free_directions(const Observations& observations, const FreeLevels& free, const NoiseRules& rules) {
+  Eigen::MatrixXd directions = level_directions(observations, free.factors, rules.level_sd);
+  if (!free.has_exponents) return directions;
+  const Eigen::MatrixXd log_rates = log_rates_within_others(observations, free.factors);
+  directions.conservativeResize(Eigen::NoChange, directions.cols() + log_rates.cols());
+  directions.rightCols(log_rates.cols()) =
+      exponent_scatter(observations, log_rates).value_or(rules.exponent_sd) * log_rates;
+  return directions;
+}
+
+Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors,
+                                  const NoiseRules& rules) {
+  observations.levels =
+      free_directions(observations, {factors_but_rate(observations, std::move(factors)), false}, rules);
   return observations;
 }
 
 Observations with_free_exponents(Observations observations, const std::vector<std::string>& factors,
                                  const NoiseRules& rules) {
-  const Eigen::MatrixXd log_rates = log_rates_within_others(observations, factors);
-  observations = with_levels_but_rate(std::move(observations), factors, rules);
-  observations.levels.conservativeResize(Eigen::NoChange, observations.levels.cols() + log_rates.cols());
-  observations.levels.rightCols(log_rates.cols()) =
-      exponent_scatter(observations, log_rates).value_or(rules.exponent_sd) * log_rates;
+  observations.levels = free_directions(observations, {factors_but_rate(observations, factors), true}, rules);
   return observations;
 }
 

@@ -9,12 +9,19 @@
 
 namespace nacre::diagnosis {
 
-/// Conditions that vary over the groups, batch and print order behind the others, and "material" where there are three
-/// and more; none unless all specimens are homogeneous and none is notched.
+bool has_layouts(const Observations& observations);
+
+/// Conditions that vary over the groups, batch and print order behind the others, and of homogeneous specimens alone
+/// "material" where there are three and more. None where specimens are notched, or where there are layouts and neither
+/// temperature, humidity, age nor machine varies.
 std::vector<std::string> varying_factors(const Observations& observations);
 
+/// How many values a factor has where it varies most: within one material, or over the materials.
+std::size_t most_values(const Observations& observations, const std::string& factor);
+
 /// One free level for every combination of these factors' values in each material and feature, as columns over the
-/// rows: one standard deviation each. They are no levels of a material as a whole, but where "material" is among them.
+/// rows: one standard deviation each. They are no levels of a material as a whole, but where "material" is among them:
+/// those of its measured rows, the ones that have a value (others are to be predicted), have a mean of zero.
 Eigen::MatrixXd level_directions(const Observations& observations, const std::vector<std::string>& factors, double sd);
 
 /// The least sets of factors whose free levels make the base fit. None where it fits without, or with no set.
@@ -28,6 +35,20 @@ std::vector<std::string> told_factors(const std::vector<std::vector<std::string>
 /// compared at; a law of theirs may stand in afterwards (condition_laws.hpp). Those of a material would hide every
 /// effect.
 std::vector<std::string> without_law(std::vector<std::string> factors);
+
+/// What is free beside a model.
+struct FreeLevels {
+  std::vector<std::string> factors;  ///< levels of these
+  bool has_exponents = false;        ///< and exponents of the strain rate in every material at equal values of others
+  bool are_of_specimens = false;     ///< levels of machines: a piece keeps its own on another machine
+  bool operator==(const FreeLevels&) const = default;
+};
+
+/// As columns over the rows, in the sense of level_directions().
+Eigen::MatrixXd free_directions(const Observations& observations, const FreeLevels& free, const NoiseRules& rules);
+
+/// These factors but for the strain rate, and materials where they vary.
+std::vector<std::string> factors_but_rate(const Observations& observations, std::vector<std::string> factors);
 
 /// With free levels of these factors but for the strain rate, and of materials where they vary, in place of others.
 Observations with_levels_but_rate(Observations observations, std::vector<std::string> factors, const NoiseRules& rules);

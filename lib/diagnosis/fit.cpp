@@ -56,9 +56,9 @@ bool is_share(const material::EffectParameter& parameter) {
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
   for (std::size_t k = 0; k < map.effects().size(); ++k) {
     const material::Effect& effect = *material::find_effect(map.effects()[k]);
-    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-      const int i = map.first_coordinate(k) + static_cast<int>(p);
-      if (is_share(effect.parameters[p])) continue;
+    for (int p = 0; p < map.count_of(effect); ++p) {
+      const int i = map.first_coordinate(k) + p;
+      if (is_share(effect.parameter(p))) continue;
       for (const double bound : {map.lower(i), map.upper(i)}) {
         if (bound != 0.0 && std::abs(u[i] - bound) < 1e-6) return true;
       }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
 #include "diagnosis/words.hpp"
@@ -13,6 +14,10 @@ namespace nacre::diagnosis {
 using nlohmann::ordered_json;
 
 namespace {
+
+ordered_json or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
 
 /// Numbers that follow from the parameters, as far as the data tell them.
 ordered_json parameters_of(const NamedEffect& e, const material::Effect& effect) {
@@ -37,6 +42,7 @@ ordered_json json_of(const NamedEffect& e) {
     json["further"].push_back(number.value);
     json["further_interval90"].push_back({number.interval_low, number.interval_high});
   }
+  if (!e.each.empty()) json["each"] = e.each;
   if (!effect.form.empty()) json["form"] = effect.form;
   if (!effect.derived.empty()) json["parameters"] = parameters_of(e, effect);
   return json;
@@ -54,7 +60,7 @@ ordered_json json_of(const CandidateEffect& c) {
           {"nearest_rival", c.nearest_rival},
           {"rival_cosine", c.rival_cosine},
           {"distance", c.distance},
-          {"smallest_seen", c.smallest_seen ? ordered_json(*c.smallest_seen) : ordered_json(nullptr)}};
+          {"smallest_seen", or_null(c.smallest_seen)}};
 }
 
 ordered_json json_of(const Contrast& c) {
@@ -103,6 +109,10 @@ ordered_json json_of(const NextExperiment& e) {
           {"thickness_mm", e.conditions.thickness_mm},
           {"replicates", e.replicates},
           {"loading", tester::to_string(e.loading)},
+          {"temperature_c", or_null(e.surroundings.temperature_c)},
+          {"humidity_pct", or_null(e.surroundings.humidity_pct)},
+          {"age_days", or_null(e.surroundings.age_days)},
+          {"machines", e.machines},
           {"reason", e.reason}};
 }
 
@@ -212,9 +222,6 @@ std::string to_json(const Diagnosis& d) {
 }
 
 std::string to_json(const Plan& plan) {
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
-  };
   ordered_json effects = ordered_json::array(), additions = ordered_json::array();
   for (const PlannedEffect& e : plan.effects) {
     effects.push_back({{"name", e.name},

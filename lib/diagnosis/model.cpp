@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "diagnosis/other_materials.hpp"
+#include "material/surroundings_laws.hpp"
 #include "material/temperature_shift.hpp"
 #include "measurement/held_strain.hpp"
 #include "tester/modulus.hpp"
@@ -22,6 +23,18 @@ using tester::TestKind;
 /// Value of a feature that the model does not show: no toe, no set, and the way back as steep as the way up.
 double unshown(const FeatureValues& values, Feature feature) {
   return feature == Feature::log_unloading ? value_of(values, Feature::log_tangent_30).value_or(0.0) : 0.0;
+}
+
+/// The parameters of homogeneous specimens in the surroundings of a test.
+material::ParameterSet in_surroundings(material::ParameterSet set, const Observation& group) {
+  if (group.material_number < 0) return set;
+  const double factor = material::stiffness_in_surroundings(
+      set.extensions, group.material_number, group.surroundings.humidity_pct.value_or(material::kReferenceHumidityPct),
+      group.surroundings.age_days.value_or(0.0));
+  set.modulus.e_tb_pa *= factor;
+  set.modulus.e_vw_pa *= factor;
+  set.modulus.e_if_pa *= factor;
+  return set;
 }
 
 /// The conditions that the testers simulate: the rate to which the specimen responds at its temperature.
@@ -99,7 +112,9 @@ Basis basis_for(const Observations& observations, const material::ParameterSet& 
               .coupon = false,
               .centre = start,
               .ranges = ranges_over(ranges, others),
-              .rules = rules};
+              .rules = rules,
+              .machines = static_cast<int>(observations.machines.size()),
+              .materials = static_cast<int>(observations.materials.size())};
   material::ModulusVector moduli = to_vector(start.modulus);
   for (const OtherMaterial& other : others) moduli[other.material] = other.modulus_pa;
   basis.centre.modulus = material::modulus_from_vector(moduli);
@@ -142,8 +157,7 @@ FeatureModel FeatureModel::with_basis(Basis basis) const {
 }
 
 measurement::PrintContext FeatureModel::print_context(const Observation& group) const {
-  return {.batch_step = group.batch_step,
-          .on_second_machine = observations_.machines.size() == 2 && group.machine == 1};
+  return {.batch_step = group.batch_step, .machine = group.machine};
 }
 
 double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
@@ -249,7 +263,7 @@ void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eige
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
     const Observation& g = observations_.groups[group];
     if (g.test == TestKind::toughness || g.design.layout()) return;
-    put_group(group, map.coupon_parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
+    put_group(group, in_surroundings(map.coupon_parameters(u[point]), g), y.col(static_cast<Eigen::Index>(point)));
   });
   parallel_for(points, [&](int p) {
     const material::ParameterSet set = map.parameters(u[p]);

@@ -217,6 +217,24 @@ void put_weights_of_pieces(Observations& observations, const std::vector<History
   }
 }
 
+int number_of(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<int>(std::ranges::find(names, name) - names.begin());
+}
+
+void number_machines_and_materials(Observations& observations) {
+  std::set<std::string> machines, materials;
+  for (const Observation& group : observations.groups) {
+    machines.insert(group.surroundings.machine);
+    if (group.design.mixture()) materials.insert(group.material());
+  }
+  observations.machines.assign(machines.begin(), machines.end());
+  observations.materials.assign(materials.begin(), materials.end());
+  for (Observation& group : observations.groups) {
+    group.machine = number_of(group.surroundings.machine, observations.machines);
+    if (group.design.mixture()) group.material_number = number_of(group.material(), observations.materials);
+  }
+}
+
 /// Whether E of the base materials is told by layouts and by homogeneous specimens.
 bool has_constants_of_both(const std::vector<Observation>& groups) {
   const auto any = [&](auto is) { return std::ranges::any_of(groups, is); };
@@ -411,12 +429,7 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     observations.groups.back().read_up_to = turn;
     if (common) observations.groups.back().curve = tester::cut_at(observations.groups.back().curve, *common);
   }
-  std::set<std::string> machines;
-  for (const Observation& group : observations.groups) machines.insert(group.surroundings.machine);
-  observations.machines.assign(machines.begin(), machines.end());
-  for (Observation& group : observations.groups)
-    group.machine = static_cast<int>(std::ranges::find(observations.machines, group.surroundings.machine) -
-                                     observations.machines.begin());
+  number_machines_and_materials(observations);
   observations.disconnected_batches = disconnected_batches(groups);
   std::vector<double> values;
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -27,6 +27,7 @@ struct Observation {
   tester::TestConditions conditions;
   measurement::Surroundings surroundings = {};  ///< of the first replicate
   int machine = 0;                              ///< its number in the order of the names of all machines, from 0
+  int material_number = -1;                     ///< the same among homogeneous materials; -1: none of these
   bool unloaded = false;                        ///< a coupon that was unloaded on its way
   tester::Loading pauses = {};                  ///< the programme of one with pauses; its curve ends at the turn
   std::optional<double> read_up_to = {};        ///< of unloaded ones: the strain that all replicates reach
@@ -142,6 +143,7 @@ struct Observations {
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
   double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
   std::vector<std::string> machines;  ///< their names, sorted
+  std::vector<std::string> materials;      ///< names of homogeneous ones, sorted
   std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
   int size() const { return rows.size(); }
   const Observation& group_of(int row) const { return groups[rows[row].group]; }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/specimen_moduli.hpp"
 #include "measurement/conditions.hpp"
 #include "pattern/coupons.hpp"
 
@@ -54,7 +55,12 @@ std::vector<PossibleTest> twins(const Observations& observations, const TestRule
   std::map<TestKind, int> twins_of;
   for (const Observation* g : layouts) {
     const auto twin = [&](AddedTest kind) -> tester::TestConditions& {
-      possible.push_back({{kind}, g->design, g->test, g->conditions});
+      possible.push_back({.way = {kind},
+                          .design = g->design,
+                          .test = g->test,
+                          .conditions = g->conditions,
+                          .surroundings = g->surroundings,
+                          .machine = g->machine});
       return possible.back().conditions;
     };
     const double orientation_deg = g->conditions.orientation_deg;
@@ -109,6 +115,8 @@ std::vector<double> unload_history() {
 bool would_join(const PossibleTest& test, const Observation& group) {
   return test.test == group.test && test.design == group.design &&
          measurement::same_conditions(test.conditions, group.conditions) &&
+         measurement::nominal_surroundings(test.surroundings) ==
+             measurement::nominal_surroundings(group.surroundings) &&
          (test.test != TestKind::tensile || group.unloaded);
 }
 
@@ -120,25 +128,48 @@ Observation group_of(const PossibleTest& test, int replicates) {
   group.unloaded = test.test == TestKind::tensile;
   group.replicates = replicates;
   group.batch_step = test.batch_step;
+  group.surroundings = test.surroundings;
+  group.machine = test.machine;
+  group.print_order = test.print_order;
   return group;
 }
 
+UsualSurroundings usual_surroundings(const Observations& observations) {
+  std::map<std::string, std::pair<int, const Observation*>> counts;
+  for (const Observation& group : observations.groups) {
+    auto& [count, first] = counts[measurement::nominal_surroundings(group.surroundings)];
+    if (count++ == 0) first = &group;
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second.first; });
+  if (most == counts.end()) return {};
+  return {most->second.second->surroundings, most->second.second->machine};
+}
+
 std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules) {
-  std::vector<PossibleTest> possible = twins(observations, rules);
+  std::vector<PossibleTest> possible;
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
     if (std::ranges::any_of(observations.groups,
                             [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
   std::ranges::move(homogeneous_coupons(observations, rules), std::back_inserter(possible));
+  const UsualSurroundings usual = usual_surroundings(observations);
+  for (PossibleTest& test : possible) test.surroundings = usual.surroundings, test.machine = usual.machine;
+  std::vector<PossibleTest> of_measured = twins(observations, rules);
+  possible.insert(possible.begin(), of_measured.begin(), of_measured.end());
+  std::ranges::move(moduli_of_specimens(observations, rules), std::back_inserter(possible));
   std::vector<PossibleTest> left;
   for (PossibleTest& test : possible) {
-    const bool measured =
-        std::ranges::any_of(observations.groups, [&](const Observation& g) { return would_join(test, g); });
-    const bool listed =
-        std::ranges::any_of(left, [&](const PossibleTest& other) { return would_join(test, group_of(other, 1)); });
+    const bool measured = !test.second_machine && std::ranges::any_of(observations.groups, [&](const Observation& g) {
+      return would_join(test, g);
+    });
+    const bool listed = std::ranges::any_of(left, [&](const PossibleTest& other) {
+      const bool is_of_its_batch = test.is_of_measured_batch == other.is_of_measured_batch &&
+                                   (!test.is_of_measured_batch || test.batch_step == other.batch_step);
+      return test.second_machine == other.second_machine && is_of_its_batch && would_join(test, group_of(other, 1));
+    });
     if (measured || listed) continue;
     left.push_back(std::move(test));
-    if (observations.last_batch_step == 0.0) continue;
+    if (observations.last_batch_step == 0.0 || left.back().is_of_measured_batch) continue;
     left.back().batch_step = observations.last_batch_step + 1.0;
   }
   return left;

@@ -2,9 +2,11 @@
 // Tests that a laboratory could add to a measurement set.
 
 #include <compare>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
+#include "measurement/surroundings.hpp"
 #include "tester/loading.hpp"
 
 namespace nacre::diagnosis {
@@ -22,6 +24,12 @@ enum class AddedTest {
   coupon,
   faster_coupon,
   coupon_between_rates,
+  at_other_rate,  ///< the modulus of a homogeneous specimen, as those that follow
+  at_other_temperature,
+  in_other_humidity,
+  at_other_age,
+  on_other_machine,
+  on_two_machines,  ///< each piece on both
 };
 bool is_twin(AddedTest kind);
 
@@ -39,20 +47,33 @@ struct PossibleTest {
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
   double batch_step = 0.0;  ///< of a batch to come; 0 where there is one batch
+  measurement::Surroundings surroundings = {};
+  int machine = 0;                         ///< as in Observation
+  std::optional<int> second_machine = {};  ///< the same pieces are tested on this one too
+  double print_order = 0.0;                ///< as in Observation
+  bool is_of_measured_batch = false;       ///< further pieces of the batch that the measured ones are of, or those
 };
 
 /// Whether replicates of the test would join the group (measurement::same_conditions): homogeneous coupons are to be
-/// unloaded.
+/// unloaded. Surroundings are equal within what no laboratory holds.
 bool would_join(const PossibleTest& test, const Observation& group);
 
 /// The group that replicates of it would be, before anything is measured.
 Observation group_of(const PossibleTest& test, int replicates);
 
+/// The surroundings of most groups, with the number of their machine.
+struct UsualSurroundings {
+  measurement::Surroundings surroundings;
+  int machine = 0;
+};
+UsualSurroundings usual_surroundings(const Observations& observations);
+
 /// Tests that a laboratory could add to these: turned twins of measured designs, other rates and half the thickness for
 /// the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
-/// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. Tests that were made
-/// already, at these conditions or within their tolerance, are left out.
+/// hundredfold apart the middle of the gap; moduli of homogeneous specimens (specimen_moduli.hpp). Where there are
+/// batches they are printed in a new one, unless they differ in one condition alone from measured ones. Tests that were
+/// made already, at these conditions or within their tolerance, are left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules);
 
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: the loading of homogeneous coupons that are ordered.

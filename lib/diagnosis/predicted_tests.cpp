@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/parallel.hpp"
 #include "diagnosis/shared_discretisation.hpp"
+#include "diagnosis/words.hpp"
 #include "measurement/reduction.hpp"
 #include "tester/modulus.hpp"
 #include "tester/strength_field.hpp"
@@ -69,15 +72,16 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
 
 /// By test and model.
 std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTest>& tests,
-                                                    const std::vector<FittedModel>& models, const FeatureModel& model,
+                                                    const std::vector<Explanation>& models, const FeatureModel& model,
                                                     tester::Fidelity fidelity, const CurveReading& reading,
                                                     int specimens) {
   std::vector<std::vector<FeatureValues>> seen(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(tests.size() * models.size(), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),
                       m = static_cast<std::size_t>(job) % models.size();
-    const CoordinateMap map = model.map(models[m].effects);
-    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, models[m].u), fidelity, reading, specimens);
+    const FittedModel& fit = models[m].model;
+    const CoordinateMap map = model.map(fit.effects);
+    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, fit.u), fidelity, reading, specimens);
   });
   return seen;
 }
@@ -88,11 +92,22 @@ bool is_of_unknown_stiffness(const Observation& added, const Observations& measu
          std::ranges::none_of(measured.groups, [&](const Observation& g) { return g.design == added.design; });
 }
 
-/// Whether a model is another one with something added.
-bool holds(const FittedModel& whole, const FittedModel& part) {
-  return std::ranges::all_of(part.effects, [&](const std::string& effect) {
-    return std::ranges::find(whole.effects, effect) != whole.effects.end();
+/// Those that are pulled on two machines.
+std::vector<std::string> names_of_pieces(const PossibleTest& test, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back(fmt::format("{} {}", in_words(test), i));
+  return names;
+}
+
+/// Of the same material where moduli of each scatter differently.
+std::size_t scatter_of(const Observation& added, const Observations& measured) {
+  const auto of_test = static_cast<std::size_t>(added.test);
+  if (added.test != TestKind::modulus) return of_test;
+  const auto like = std::ranges::find_if(measured.rows, [&](const DataRow& row) {
+    return row.kind == RowKind::mean && row.test == added.test &&
+           measured.groups[row.group].material() == added.material();
   });
+  return like == measured.rows.end() ? of_test : like->scatter;
 }
 
 /// The inverse of the covariance of a model's free coordinates: information of the data, prior of the base constants,
@@ -110,40 +125,57 @@ Eigen::LDLT<Eigen::MatrixXd> information(const FittedModel& model, const Eigen::
 
 }  // namespace
 
-PredictedTests::PredictedTests(const Evidence& evidence, std::vector<FittedModel> models,
+PredictedTests::PredictedTests(const Evidence& evidence, const std::vector<Explanation>& explanations,
                                const std::vector<PossibleTest>& tests, int replicates)
-    : measured_(evidence.observations), models_(std::move(models)), whitener_(measured_.covariance()) {
+    : measured_(evidence.observations) {
   const tester::Fidelity fidelity = evidence.settings.fidelity;
-  const auto seen = predictions(tests, models_, evidence.model, fidelity, measured_.reading,
-                                evidence.settings.procedure.tests.broken_specimens);
+  const Procedure& rules = evidence.settings.procedure;
+  const auto seen =
+      predictions(tests, explanations, evidence.model, fidelity, measured_.reading, rules.tests.broken_specimens);
+  measured_.levels.resize(0, 0);
   added_.reading = measured_.reading;
   added_.constant_sd = measured_.constant_sd;
-  same_errors_ = evidence.settings.procedure.tests.same_errors;
+  added_.machines = measured_.machines;
+  added_.materials = measured_.materials;
+  same_errors_ = rules.tests.same_errors;
+  const FittedModel& first = explanations.front().model;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     Observation group = group_of(tests[t], replicates);
+    const auto material = std::ranges::find(measured_.materials, group.material());
+    if (material != measured_.materials.end())
+      group.material_number = static_cast<int>(material - measured_.materials.begin());
     if (group.test == TestKind::tensile) {
-      const CoordinateMap map = evidence.model.map(models_.front().effects);
-      group.curve = coupon_curve(tests[t], parameters_for(tests[t], map, models_.front().u), fidelity);
+      const CoordinateMap map = evidence.model.map(first.effects);
+      group.curve = coupon_curve(tests[t], parameters_for(tests[t], map, first.u), fidelity);
     }
-    rows_of_.push_back(add_group(std::move(group), seen[t]));
+    if (tests[t].second_machine) group.pieces = names_of_pieces(tests[t], replicates);
+    rows_of_.push_back(add_group(group, seen[t]));
+    first_of_.resize(added_.rows.size(), -1);
+    if (!tests[t].second_machine || rows_of_.back().empty()) continue;
+    group.machine = *tests[t].second_machine;
+    const int row_on_first = rows_of_.back().front();
+    rows_of_.back() = add_group(std::move(group), seen[t]);
+    first_of_.resize(added_.rows.size(), row_on_first);
   }
   const FeatureModel bench(added_, evidence.model.basis(), fidelity);
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    predicted_.push_back(linearised(bench, models_[m].effects, models_[m].u));
+  std::vector<FittedModel> added;
+  for (std::size_t m = 0; m < explanations.size(); ++m) {
+    const FittedModel& model = explanations[m].model;
+    added.push_back(linearised(bench, model.effects, model.u));
     for (std::size_t t = 0; t < tests.size(); ++t)
       for (const int row : rows_of_[t])
-        if (tests[t].test == TestKind::toughness) put_fracture(m, row, seen[t][m]);
-    columns_.push_back(models_[m].whitened_columns(whitener_));
-    information_.push_back(information(models_[m], columns_.back()));
+        if (tests[t].test == TestKind::toughness) put_fracture(model, added[m], row, seen[t][m]);
   }
   join();
   if (measured_.has_shared_discretisation()) {
     joined_.discretisation_shared.conservativeResize(joined_.size(), Eigen::NoChange);
     joined_.discretisation_shared.bottomRows(added_.size()) = shared_directions(evidence, bench);
   }
-  refits_.resize(models_.size());
-  for (std::size_t truth = 0; truth < models_.size(); ++truth)
-    for (const FittedModel& wrong : models_) refits_[truth].push_back(refit(models_[truth], wrong));
+  for (std::size_t m = 0; m < explanations.size(); ++m)
+    hypotheses_.push_back(hypothesis_of(explanations[m], std::move(added[m]), rules.noise));
+  refits_.resize(hypotheses_.size());
+  for (std::size_t truth = 0; truth < hypotheses_.size(); ++truth)
+    for (const Hypothesis& wrong : hypotheses_) refits_[truth].push_back(refit(hypotheses_[truth], wrong));
 }
 
 /// The rows of a test: features that every model shows, but none of unknown discretisation error.
@@ -158,17 +190,17 @@ std::vector<int> PredictedTests::add_group(Observation group, const std::vector<
     if (fracture && discretisation_known && std::ranges::find(known, feature) == known.end()) continue;
     rows.push_back(added_.size());
     added_.rows.push_back({static_cast<int>(added_.groups.size()), feature, RowKind::mean, group.test,
-                           1.0 / group.replicates, static_cast<std::size_t>(group.test)});
+                           1.0 / group.replicates, scatter_of(group, measured_)});
   }
   if (!rows.empty()) added_.groups.push_back(std::move(group));
   return rows;
 }
 
 /// A fracture test, simulated once, with the slopes of the same layout as it was measured, or the mean measured ones.
-void PredictedTests::put_fracture(std::size_t model, int row, const FeatureValues& seen) {
+void PredictedTests::put_fracture(const FittedModel& model, FittedModel& predicted, int row,
+                                  const FeatureValues& seen) const {
   const DataRow& added = added_.rows[row];
   const pattern::Design& design = added_.group_of(row).design;
-  FittedModel& predicted = predicted_[model];
   predicted.predicted[row] = *value_of(seen, added.feature);
   std::vector<int> own, all;
   for (int i = 0; i < measured_.size(); ++i) {
@@ -178,7 +210,7 @@ void PredictedTests::put_fracture(std::size_t model, int row, const FeatureValue
     if (measured_.group_of(i).design == design) own.push_back(i);
   }
   const std::vector<int>& like = own.empty() ? all : own;
-  if (!like.empty()) predicted.jacobian.row(row) = models_[model].jacobian(like, Eigen::all).colwise().mean();
+  if (!like.empty()) predicted.jacobian.row(row) = model.jacobian(like, Eigen::all).colwise().mean();
 }
 
 /// The tests behind the measured rows, with their joint covariance.
@@ -192,25 +224,64 @@ void PredictedTests::join() {
   }
 }
 
-PredictedTests::WrongModelRefit PredictedTests::refit(const FittedModel& truth, const FittedModel& wrong) const {
+PredictedTests::Hypothesis PredictedTests::hypothesis_of(const Explanation& explanation, FittedModel added,
+                                                         const NoiseRules& rules) const {
+  const int n = measured_.size();
+  Observations all = joined_;
+  if (explanation.beside.are_of_specimens)
+    for (int row = 0; row < added_.size(); ++row)
+      if (first_of_[row] >= 0) all.groups[all.rows[n + row].group].machine = all.group_of(n + first_of_[row]).machine;
+  const FittedModel& model = explanation.model;
+  Hypothesis hypothesis{.measured = model,
+                        .added = std::move(added),
+                        .beside = explanation.beside,
+                        .levels = free_directions(all, explanation.beside, rules),
+                        .level_count = level_directions(all, explanation.beside.factors, rules.level_sd).cols(),
+                        .whitener = Whitener(measured_.covariance()),
+                        .predicted = {},
+                        .columns = {},
+                        .information = {}};
+  const auto own = hypothesis.levels.topRows(n);
+  if (own.cols() > 0) hypothesis.whitener = Whitener(measured_.covariance() + own * own.transpose());
+  hypothesis.predicted.resize(joined_.size());
+  hypothesis.predicted << model.predicted, hypothesis.added.predicted;
+  if (own.cols() > 0)
+    hypothesis.predicted += hypothesis.levels * (hypothesis.whitener(own).transpose() *
+                                                 hypothesis.whitener(measured_.values - model.predicted));
+  hypothesis.columns = model.whitened_columns(hypothesis.whitener);
+  hypothesis.information = information(model, hypothesis.columns);
+  return hypothesis;
+}
+
+PredictedTests::WrongModelRefit PredictedTests::refit(const Hypothesis& truth, const Hypothesis& wrong) const {
   WrongModelRefit refit;
-  linear_refit(wrong, truth.predicted, whitener_, &refit.step);
-  refit.left = whitener_(truth.predicted - wrong.predicted - wrong.jacobian * refit.step);
+  const Eigen::VectorXd shown = truth.predicted.head(measured_.size());
+  linear_refit(wrong.measured, shown, wrong.whitener, &refit.step);
+  refit.left = wrong.whitener(shown - wrong.measured.predicted - wrong.measured.jacobian * refit.step);
   return refit;
 }
 
-PredictedTests::NewRow PredictedTests::new_row(int row) const {
-  const int n = measured_.size(), place = n + row;
-  const auto covariance = [&](int i) {
-    const RowCovariance both = joined_.row_covariance(place, i);
-    const bool shared = joined_.has_shared_discretisation();
-    return both.fixed + both.scatter +
-           (shared ? joined_.discretisation_shared.row(place).dot(joined_.discretisation_shared.row(i)) : 0.0);
-  };
+double PredictedTests::covariance(int row, int other, const Hypothesis& hypothesis) const {
+  const RowCovariance both = joined_.row_covariance(row, other);
+  const bool shared = joined_.has_shared_discretisation();
+  double covariance =
+      both.fixed + both.scatter +
+      (shared ? joined_.discretisation_shared.row(row).dot(joined_.discretisation_shared.row(other)) : 0.0);
+  if (hypothesis.levels.cols() > 0) covariance += hypothesis.levels.row(row).dot(hypothesis.levels.row(other));
+  return covariance;
+}
+
+PredictedTests::NewRow PredictedTests::new_row(int row, const Hypothesis& wrong) const {
+  const int n = measured_.size(), place = n + row, first = first_of_[row] < 0 ? -1 : n + first_of_[row];
   Eigen::VectorXd with_measured(n);
-  for (int i = 0; i < n; ++i) with_measured[i] = covariance(i);
-  NewRow result{row, -1, whitener_(with_measured), 0.0};
-  result.variance = covariance(place) - result.whitened.squaredNorm();
+  for (int i = 0; i < n; ++i) {
+    with_measured[i] = covariance(place, i, wrong);
+    if (first >= 0) with_measured[i] -= covariance(first, i, wrong);
+  }
+  NewRow result{row, first_of_[row], wrong.whitener(with_measured), 0.0};
+  double variance = covariance(place, place, wrong);
+  if (first >= 0) variance += covariance(first, first, wrong) - 2.0 * covariance(place, first, wrong);
+  result.variance = variance - result.whitened.squaredNorm();
   if (is_of_unknown_stiffness(added_.group_of(row), measured_) && is_curve_stress(added_.rows[row].feature)) {
     // Its stiffness is fitted to either model: only the shape of the curve separates them.
     for (int i = 0; i < added_.size(); ++i) {
@@ -222,54 +293,77 @@ PredictedTests::NewRow PredictedTests::new_row(int row) const {
   return result;
 }
 
-bool PredictedTests::is_replicate(const NewRow& row, std::size_t a, std::size_t b) const {
+bool PredictedTests::is_replicate(const NewRow& row, double variance, std::size_t a, std::size_t b) const {
+  if (first_of_[row.row] >= 0) return false;
   const DataRow& added = added_.rows[row.row];
-  const double apart = predicted_[a].predicted[row.row] - predicted_[b].predicted[row.row];
+  const Eigen::VectorXd &by_a = hypotheses_[a].predicted, &by_b = hypotheses_[b].predicted;
+  const int place = measured_.size() + row.row;
+  const double apart = by_a[place] - by_b[place];
   for (int i = 0; i < measured_.size(); ++i) {
     const DataRow& other = measured_.rows[i];
     const bool twin = other.group >= 0 && other.test == added.test && other.feature == added.feature &&
                       measured_.group_of(i).design == added_.group_of(row.row).design;
     if (!twin) continue;
-    const double measured_apart = models_[a].predicted[i] - models_[b].predicted[i];
-    if (std::abs(apart - measured_apart) < same_errors_ * std::sqrt(row.variance)) return true;
+    if (std::abs(apart - (by_a[i] - by_b[i])) < same_errors_ * std::sqrt(variance)) return true;
   }
   return false;
 }
 
-double PredictedTests::growth(const NewRow& row, std::size_t truth, std::size_t wrong) const {
+double PredictedTests::growth(const NewRow& row, std::size_t truth, std::size_t wrong, double freer) const {
   const WrongModelRefit& refit = refits_[truth][wrong];
-  const FittedModel& model = models_[wrong];
-  double apart = predicted_[truth].predicted[row.row] - predicted_[wrong].predicted[row.row];
-  Eigen::RowVectorXd slopes = predicted_[wrong].jacobian.row(row.row);
+  const Hypothesis &right = hypotheses_[truth], &other = hypotheses_[wrong];
+  const FittedModel& model = other.measured;
+  const int n = measured_.size();
+  double apart = right.predicted[n + row.row] - other.added.predicted[row.row];
+  Eigen::RowVectorXd slopes = other.added.jacobian.row(row.row);
   if (row.against >= 0) {
-    apart -= predicted_[truth].predicted[row.against] - predicted_[wrong].predicted[row.against];
-    slopes -= predicted_[wrong].jacobian.row(row.against);
+    apart -= right.predicted[n + row.against] - other.added.predicted[row.against];
+    slopes -= other.added.jacobian.row(row.against);
   }
   apart -= slopes.dot(refit.step) + row.whitened.dot(refit.left);
   // Uncertainty of the constants after the measured rows, as far as it moves this row against them.
-  const Eigen::VectorXd open =
-      slopes(model.free).transpose() - columns_[wrong].topRows(measured_.size()).transpose() * row.whitened;
-  const double variance = row.variance + open.dot(information_[wrong].solve(open));
-  return apart * apart / variance;
+  const Eigen::VectorXd open = slopes(model.free).transpose() - other.columns.topRows(n).transpose() * row.whitened;
+  const double variance = row.variance + open.dot(other.information.solve(open));
+  if (has_open_level(row.row, right)) return apart * apart / (variance + freer);
+  return (apart * apart + freer) / variance;
+}
+
+bool PredictedTests::has_open_level(int row, const Hypothesis& hypothesis) const {
+  const int n = measured_.size();
+  for (Eigen::Index k = 0; k < hypothesis.level_count; ++k)
+    if (hypothesis.levels(n + row, k) != 0.0 && hypothesis.levels.col(k).head(n).isZero()) return true;
+  return false;
 }
 
 std::vector<Separation> PredictedTests::separations(
     std::size_t test, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const {
   std::vector<Separation> best(pairs.size());
   for (const int row : rows_of_[test]) {
-    const NewRow added = new_row(row);
+    std::vector<NewRow> added;
+    for (const Hypothesis& wrong : hypotheses_)
+      added.push_back(!added.empty() && wrong.beside == hypotheses_.front().beside ? added.front()
+                                                                                   : new_row(row, wrong));
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       const auto [a, b] = pairs[p];
-      if (is_replicate(added, a, b)) continue;
-      const double of_b = growth(added, a, b), of_a = growth(added, b, a);
-      const double grown = holds(models_[a], models_[b])   ? of_b
-                           : holds(models_[b], models_[a]) ? of_a
-                                                           : 0.5 * (of_a + of_b);
+      if (is_replicate(added[a], std::min(added[a].variance, added[b].variance), a, b)) continue;
+      const double freer = added[a].variance - added[b].variance;
+      const double of_b = growth(added[b], a, b, std::max(0.0, freer)),
+                   of_a = growth(added[a], b, a, std::max(0.0, -freer));
+      const double grown = holds(hypotheses_[a], hypotheses_[b])   ? of_b
+                           : holds(hypotheses_[b], hypotheses_[a]) ? of_a
+                                                                   : 0.5 * (of_a + of_b);
       const double apart = std::sqrt(grown);
       if (apart > best[p].errors) best[p] = {apart, added_.rows[row].feature};
     }
   }
   return best;
+}
+
+bool PredictedTests::holds(const Hypothesis& whole, const Hypothesis& part) {
+  const std::vector<std::string>& effects = whole.measured.effects;
+  return whole.beside == part.beside && std::ranges::all_of(part.measured.effects, [&](const std::string& effect) {
+           return std::ranges::find(effects, effect) != effects.end();
+         });
 }
 
 }  // namespace nacre::diagnosis

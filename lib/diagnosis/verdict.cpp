@@ -188,6 +188,7 @@ Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest
                                 {.models = {law}, .observations = &freed.observations, .refits = &refits}, law.effects,
                                 rules.gain, evidence.settings.seed);
   decision.freed = std::make_shared<const Evidence>(std::move(freed));
+  decision.beside = {factors_but_rate(evidence.observations, factors), true};
   decision.finding = {
       .reason = Reason::free_form, .nearest = law.effects, .value = chance_of_misfit(evidence, nearest)};
   return decision;
@@ -199,7 +200,8 @@ Decision named_in_free_form(const Evidence& evidence, const FittedModel& nearest
 Decision decided_with_factors(const Evidence& evidence, Decision decision) {
   const bool is_named = decision.verdict == Verdict::named, is_open = decision.verdict == Verdict::unexplained;
   const bool is_of_powers = is_named && decision.possible.front().effects == std::vector<std::string>{kPowerLaw};
-  const bool is_told = contains(told_factors(evidence.factors), kStrainRate);
+  // Of layouts exponents are no material's: a law of the library, or none.
+  const bool is_told = contains(told_factors(evidence.factors), kStrainRate) && !has_layouts(evidence.observations);
   const FittedModel* law = nearest_rate_law(evidence);
   if ((is_open || is_of_powers) && is_told && law != nullptr &&
       rises_with_rate(evidence.observations, evidence.factors.front())) {

@@ -8,6 +8,7 @@
 
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/factors.hpp"
 
 namespace nacre::diagnosis {
 
@@ -23,7 +24,9 @@ struct Decision {
   std::size_t loudest_part = 0;           ///< of the rows, where the base is farthest off (Anchor::parts)
   std::vector<ModulusAtBound> untold;     ///< where specimens of these materials would decide between another material
                                           ///< and a missing effect: `ambiguous`, no model possible
-  std::vector<std::string> rival_laws;    ///< of a condition, each of which explains the data (condition_laws.hpp)
+  std::vector<FittedModel> rivals;        ///< with laws of one condition, each of which explains the data
+                                          ///< (condition_laws.hpp)
+  FreeLevels beside, beside_rivals;       ///< what is free beside the model where `freed`, and beside the rivals
   std::shared_ptr<const Evidence> freed;  ///< with the free levels and exponents beside which the model explains the
                                           ///< data, where these are others than those that effects were judged beside
   std::shared_ptr<const Evidence> part;   ///< of the rows that carry the named effect, where others misfit beside it

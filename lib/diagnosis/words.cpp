@@ -21,23 +21,43 @@ std::string with_interval(const FittedNumber& number, std::string_view unit) {
                      number.interval_low, number.interval_high);
 }
 
+/// Parameter and further ones: a number of each.
+std::vector<FittedNumber> numbers_of(const NamedEffect& e) {
+  std::vector<FittedNumber> numbers = {{e.parameter, e.interval_low, e.interval_high}};
+  numbers.insert(numbers.end(), e.further.begin(), e.further.end());
+  return numbers;
+}
+
 /// "a compliance of the machine "old" = 1e-10 1/Pa (90 % interval ...) beyond that of "new"".
-std::string machine_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
-  const bool is_second = e.parameter > 0.0;
-  const std::string &one = machines[is_second ? 1 : 0], &other = machines[is_second ? 0 : 1];
+std::string machine_in_words(const NamedEffect& e, std::size_t k, const std::string& first) {
+  const FittedNumber number = numbers_of(e)[k];
+  const std::string& machine = e.each[k];
   if (e.name == "gain_of_one_machine")
-    return fmt::format("a gain of the machine \"{}\", which reads {} times as much as \"{}\"", machines[1],
-                       with_interval({1.0 + e.parameter, 1.0 + e.interval_low, 1.0 + e.interval_high}, "1"),
-                       machines[0]);
-  const auto [low, high] = std::minmax({std::abs(e.interval_low), std::abs(e.interval_high)});
-  return fmt::format("a compliance of the machine \"{}\" = {} beyond that of \"{}\"", one,
-                     with_interval({std::abs(e.parameter), low, high}, e.unit), other);
+    return fmt::format("a gain of the machine \"{}\", which reads {} times as much as \"{}\"", machine,
+                       with_interval({1.0 + number.value, 1.0 + number.interval_low, 1.0 + number.interval_high}, "1"),
+                       first);
+  const bool is_second = number.value > 0.0;
+  const auto [low, high] = std::minmax({std::abs(number.interval_low), std::abs(number.interval_high)});
+  return fmt::format("a compliance of the machine \"{}\" = {} beyond that of \"{}\"", is_second ? machine : first,
+                     with_interval({std::abs(number.value), low, high}, e.unit), is_second ? first : machine);
+}
+
+/// A number for each machine but the first, or for each material.
+std::string each_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
+  const bool are_machines = material::find_effect(e.name)->one_for_each == "machine";
+  const std::string first = machines.size() > e.each.size() ? machines.front() : "not noted";
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < e.each.size(); ++k)
+    words.push_back(are_machines ? machine_in_words(e, k, first)
+                                 : fmt::format("{} of {} = {}", material::effect_in_words(e.name), e.each[k],
+                                               with_interval(numbers_of(e)[k], e.unit)));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and the further parameters of an effect.
 std::string size_in_words(const NamedEffect& e, const std::vector<std::string>& machines) {
   const material::Effect& effect = *material::find_effect(e.name);
-  if (effect.law_of == "machine" && machines.size() == 2) return machine_in_words(e, machines);
+  if (!e.each.empty()) return each_in_words(e, machines);
   if (!e.derived.empty()) {
     std::vector<std::string> told;
     for (std::size_t p = 0; p < e.derived.size(); ++p)
@@ -280,7 +300,8 @@ std::string alike_in_words(const Diagnosis& d) {
 /// Why machines that differ get no law.
 std::string machines_in_words(const Cautions& cautions) {
   if (cautions.machines_not_compared)
-    return " What differs between the machines may be the specimens: no piece and no batch was tested on both.";
+    return " What differs between the machines may be the specimens: no piece and no batch was tested on both, or on "
+           "all.";
   if (cautions.rival_laws.empty()) return "";
   std::vector<std::string> laws;
   for (const std::string& law : cautions.rival_laws) laws.push_back(material::effect_in_words(law));
@@ -311,43 +332,6 @@ std::string assumption_in_words(const Diagnosis& d) {
                      100.0 * d.assumed_sd);
 }
 
-/// "pulled ten times as fast "
-std::string_view rate_in_words(AddedTest kind) {
-  switch (kind) {
-    case AddedTest::faster_twin:
-    case AddedTest::faster_coupon:
-      return "ten times as fast";
-    case AddedTest::twin_between_rates:
-    case AddedTest::coupon_between_rates:
-      return "at a rate between those measured";
-    default:
-      return "";
-  }
-}
-
-std::string way_in_words(const TestWay& way) {
-  switch (way.kind) {
-    case AddedTest::turned_twin:
-      return "a twin printed turned by 90 degrees";
-    case AddedTest::faster_twin:
-    case AddedTest::twin_between_rates:
-      return fmt::format("a twin pulled {}", rate_in_words(way.kind));
-    case AddedTest::thinner_twin:
-      return "a twin of half the thickness";
-    case AddedTest::checkerboard:
-      return fmt::format("a checkerboard of period {}", way.period);
-    case AddedTest::laminate_across:
-      return fmt::format("a laminate of period {} across the pull", way.period);
-    case AddedTest::laminate_along:
-      return fmt::format("a laminate of period {} along the pull", way.period);
-    default:
-      break;
-  }
-  const std::string_view rate = rate_in_words(way.kind);
-  return fmt::format("a homogeneous coupon pulled {}{}to 2 % strain, back to 0.5 % and on", rate,
-                     rate.empty() ? "" : " ");
-}
-
 }  // namespace
 
 std::string in_words(const std::vector<std::string>& effects) {
@@ -361,10 +345,6 @@ std::string in_words(const std::vector<ModulusAtBound>& moduli) {
     words.push_back(fmt::format("{} = {:.3g} Pa{}", material::modulus_parameter_names()[each.material], each.modulus_pa,
                                 each.of_coupons ? " of coupons" : ""));
   return fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::string in_words(const PossibleTest& test) {
-  return way_in_words(test.way) + (test.batch_step > 0.0 ? ", in a new batch" : "");
 }
 
 std::string_view in_words(DiscretisationChange change) {
@@ -424,20 +404,6 @@ std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& sp
       counted(count, "notched specimen"));
 }
 
-std::string in_words(const Separated& separated) {
-  return fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors after their constants are refitted",
-                     in_words(separated.test), in_words(separated.by.feature), in_words(separated.one),
-                     in_words(separated.other), separated.by.errors);
-}
-
-std::string in_words(const UntoldMaterial& untold) {
-  return fmt::format(
-      "homogeneous {} specimens: layouts want an E of {:.3g} Pa, theirs would tell another material from an effect "
-      "that "
-      "the model lacks",
-      kConstantMaterials[untold.modulus.material], untold.modulus.modulus_pa);
-}
-
 std::string in_words(const ConditionTrend& trend) {
   const std::string of = fmt::format("{} of {}", to_string(trend.quantity), trend.of);
   if (trend.exponent_low != trend.exponent_high)
@@ -456,25 +422,6 @@ std::string trends_in_words(const DataSummary& data) {
     if (trend.chance < kSure && sure.size() < kMost) sure.push_back(in_words(trend));
   if (sure.empty()) return " By themselves the data change with no condition beyond scatter.";
   return fmt::format(" By themselves the data show: {}.", fmt::join(sure, "; "));
-}
-
-std::string bundle_in_words(const PossibleTest& test) {
-  switch (test.way.kind) {
-    case AddedTest::checkerboard:
-      return "checkerboards of period 1, 2 and 5";
-    case AddedTest::laminate_across:
-    case AddedTest::laminate_along:
-      return "laminates of period 1, 2 and 5, across and along the pull";
-    default:
-      break;
-  }
-  if (is_twin(test.way.kind)) return fmt::format("{}, {} tests", in_words(test), tester::to_string(test.test));
-  return "homogeneous coupons at several rates, unloaded on the way";
-}
-
-std::string specimen_in_words(const PossibleTest& test) {
-  return fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(),
-                     test.conditions.orientation_deg, test.conditions.strain_rate_per_s, test.conditions.thickness_mm);
 }
 
 std::string summary_of(const Diagnosis& d) {

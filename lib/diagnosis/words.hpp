@@ -7,8 +7,7 @@
 
 #include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/possible_tests.hpp"
-#include "diagnosis/test_choice.hpp"
+#include "diagnosis/test_words.hpp"
 
 namespace nacre::diagnosis {
 
@@ -16,8 +15,6 @@ namespace nacre::diagnosis {
 std::string in_words(const std::vector<std::string>& effects);
 /// "e_vw_pa = 1.39e+09 Pa, e_tb_pa = 3e+05 Pa of coupons"
 std::string in_words(const std::vector<ModulusAtBound>& moduli);
-/// "a twin printed turned by 90 degrees"
-std::string in_words(const PossibleTest& test);
 /// "half the element size"
 std::string_view in_words(DiscretisationChange change);
 /// "effect interface_anisotropy", "family geometry", "measurement side"; empty: nothing.
@@ -28,26 +25,10 @@ std::string in_words(const RowsOf& rows);
 /// A sentence with a space in front on valid specimens that no row is made of (observe()); empty where there are none.
 std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Why a test is proposed: it separates two models, given by their effects; or it tells a material's own E.
-struct Separated {
-  const PossibleTest& test;
-  Separation by;
-  const std::vector<std::string>&one, &other;
-};
-std::string in_words(const Separated& separated);
-struct UntoldMaterial {
-  ModulusAtBound modulus;
-};
-std::string in_words(const UntoldMaterial& untold);
-
 /// "modulus of mix:0.75 grows as the strain rate to the power 0.12 (90 % interval 0.10 to 0.14)"
 std::string in_words(const ConditionTrend& trend);
 /// What the data show by themselves, a sentence with a space in front; empty: no condition varies.
 std::string trends_in_words(const DataSummary& data);
-
-/// What a plan adds together: "checkerboards of period 1, 2 and 5"; and one specimen of it.
-std::string bundle_in_words(const PossibleTest& test);
-std::string specimen_in_words(const PossibleTest& test);
 
 /// Verdict with its reason, gain, and everything that limits what the verdict is worth.
 std::string summary_of(const Diagnosis& diagnosis);

@@ -43,9 +43,13 @@ constexpr std::array kTemperatureShift = {
     EffectParameter{"degrees below 23 C at which the shift has its pole (Williams, Landel, Ferry)", "K", 0.0, 1e4,
                     Strength::scale, 20.0}};
 constexpr std::array kOneMachineCompliance = {EffectParameter{
-    "strain per nominal stress of the second machine's load train, less that of the first", "1/Pa", -2e-9, 2e-9}};
+    "strain per nominal stress of another machine's load train, less that of the first", "1/Pa", -2e-9, 2e-9}};
 constexpr std::array kOneMachineGain = {
-    EffectParameter{"force that the second machine records over that of the first, less one", "relative", -0.5, 0.5}};
+    EffectParameter{"force that another machine records over that of the first, less one", "relative", -0.5, 0.5}};
+constexpr std::array kHumidity = {
+    EffectParameter{"growth of the logarithm of stiffness by one per cent of relative humidity", "1/%", -0.1, 0.1}};
+constexpr std::array kAgeing = {
+    EffectParameter{"exponent a: stiffness grows as (1 + age in days) to the power a", "1", -0.5, 0.5}};
 constexpr std::array kProgressiveDamage = {
     EffectParameter{"energy spent in softening over the threshold energy", "1", 0.0, 4.0}};
 constexpr std::array kTensionOnlyFailure = {
@@ -95,6 +99,11 @@ constexpr Effect form(Effect one, std::string_view form_of, std::string_view for
 
 constexpr Effect law_of(std::string_view condition, Effect one) {
   one.law_of = condition;
+  return one;
+}
+
+constexpr Effect one_for_each(std::string_view of, Effect one) {
+  one.one_for_each = of;
   return one;
 }
 
@@ -150,19 +159,30 @@ constexpr std::array kConditionLaws = {
                                       "All materials are stiffer the faster they are pulled, by two relaxation times "
                                       "(a Prony series)."),
                                "rate_dependence", "prony")),
-    law_of("machine", form(effect("compliance_of_one_machine", "measurement", EffectSide::measurement,
-                                  kOneMachineCompliance, kElastic,
-                                  "One of two machines has a spring in series that the other has not: the difference "
-                                  "between them grows with stiffness."),
-                           "machine_compliance", "one_machine")),
     law_of("machine",
-           form(effect("gain_of_one_machine", "measurement", EffectSide::measurement, kOneMachineGain, kElastic,
-                       "One of two machines reads higher than the other by one factor, whatever the "
-                       "material: load cell, cross-section or gauge length."),
-                "load_cell_gain", "one_machine")),
+           one_for_each("machine",
+                        form(effect("compliance_of_one_machine", "measurement", EffectSide::measurement,
+                                    kOneMachineCompliance, kElastic,
+                                    "One machine has a spring in series that another has not: the difference between "
+                                    "them grows with stiffness."),
+                             "machine_compliance", "one_machine"))),
+    law_of("machine",
+           one_for_each(
+               "machine",
+               form(effect("gain_of_one_machine", "measurement", EffectSide::measurement, kOneMachineGain, kElastic,
+                           "One machine reads higher than another by one factor, whatever the material: load "
+                           "cell, cross-section or gauge length."),
+                    "load_cell_gain", "one_machine"))),
     law_of("temperature", effect("temperature_shift", "temperature", EffectSide::material, kTemperatureShift, kElastic,
                                  "A warm specimen responds as a cold one that is pulled more slowly (time-temperature "
                                  "superposition).")),
+    law_of("humidity",
+           one_for_each("material", effect("humidity_dependence", "humidity", EffectSide::material, kHumidity, kElastic,
+                                           "Water softens a material by the same share for each per cent of relative "
+                                           "humidity."))),
+    law_of("age", one_for_each("material", effect("ageing", "age", EffectSide::material, kAgeing, kElastic,
+                                                  "A material stiffens by the same share for each decade of its "
+                                                  "age."))),
 };
 
 }  // namespace

@@ -62,6 +62,14 @@ struct Effect {
   std::string_view form = {};     ///< of effects with several forms: which
   std::span<const DerivedNumber> derived = {};
   std::string_view law_of = {};  ///< the condition of which it is a law (condition_laws()); empty: of none
+  /// Where its one parameter has a value for each of several: "material" (homogeneous ones, by name) or "machine" (but
+  /// for the first, by name).
+  std::string_view one_for_each = {};
+  /// Parameter of a value in Extensions.
+  const EffectParameter& parameter(std::size_t index) const {
+    return one_for_each.empty() ? parameters[index] : parameters.front();
+  }
+  bool takes(std::size_t values) const { return one_for_each.empty() ? values == parameters.size() : values > 0; }
   /// What people call the cause: all forms of one effect alike.
   std::string_view cause() const { return form_of.empty() ? name : form_of; }
 };

@@ -59,11 +59,11 @@ std::vector<double> extension_values(const FilePlace& place, const toml::node& n
   } else {
     entries.push_back(&node);
   }
-  if (entries.size() != effect.parameters.size())
+  if (!effect.takes(entries.size()))
     throw place.error(node, path, fmt::format("expected {} number(s)", effect.parameters.size()));
   std::vector<double> values;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const EffectParameter& parameter = effect.parameters[i];
+    const EffectParameter& parameter = effect.parameter(i);
     const std::optional<double> value = entries[i]->value<double>();
     if (!value || !parameter.allows(*value))
       throw place.error(*entries[i], path, fmt::format("expected {} ({})", parameter.range(), parameter.unit));

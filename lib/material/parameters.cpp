@@ -37,10 +37,10 @@ std::string vector_fault(std::string_view table, std::span<const std::string_vie
 std::string extension_fault(std::string_view name, const std::vector<double>& values) {
   const Effect* effect = find_effect(name);
   if (effect == nullptr) return fmt::format("unknown extension '{}'", name);
-  if (values.size() != effect->parameters.size())
+  if (!effect->takes(values.size()))
     return fmt::format("extension {} takes {} value(s), not {}", name, effect->parameters.size(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const EffectParameter& parameter = effect->parameters[i];
+    const EffectParameter& parameter = effect->parameter(i);
     if (!parameter.allows(values[i]))
       return fmt::format("extension {} = {} {}: expected {}", name, values[i], parameter.unit, parameter.range());
   }

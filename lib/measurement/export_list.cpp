@@ -105,14 +105,15 @@ std::vector<ListedColumn> columns_of_sweep(const TableBlock& block, char delimit
   return columns;
 }
 
-ListedExport listed_sweep(const ExportTables& tables, const DecodedText& text, const ColumnChoice& choice,
+ListedExport listed_sweep(const ExportTables& tables, const DecodedText& text,
+                          const std::vector<std::string_view>& lines, const ColumnChoice& choice,
                           const std::string& file) {
   ListedExport shown{.maker = "table",
                      .encoding = text.encoding,
                      .delimiter = std::string(delimiter_in_words(tables.delimiter)),
                      .parts = {},
                      .notes = {}};
-  const auto sweep = sweep_of(tables, choice, file);
+  const auto sweep = sweep_of(tables, lines, choice, file);
   const TableBlock& first = tables.blocks.front();
   ListedPart part{.name = "1",
                   .line = static_cast<int>(first.heading) + 1,
@@ -138,7 +139,7 @@ tl::expected<ListedExport, ImportFault> list_export(std::string_view bytes, cons
   if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
   const std::vector<std::string_view> lines = export_lines(text->text);
   const ExportTables sweep = may_be_sweep(choice) ? sweep_tables_of(lines) : ExportTables{};
-  if (!sweep.blocks.empty()) return listed_sweep(sweep, *text, choice, file);
+  if (!sweep.blocks.empty()) return listed_sweep(sweep, *text, lines, choice, file);
   const auto tables = curve_tables_of(lines, file, choice);
   if (!tables) return tl::unexpected(tables.error());
   const ExportParts parts = parts_of(*tables, choice, file);

@@ -34,10 +34,10 @@ std::optional<ImportFault> fault_of_sweep(const SheetRow& row, const Sweep& swee
   if (!row.record.design.mixture())
     return fault("pattern", fmt::format("expected a homogeneous material (soft, interface, rigid, mix:F), not `{}`{}",
                                         row.record.design.name(), other));
-  if (!sweep.column(SweepQuantity::amplitude) && !row.strain_amplitude)
+  if (!sweep.has_amplitude() && !row.strain_amplitude)
     return fault("strain_amplitude",
                  fmt::format("expected the strain amplitude here (0.001 is 0.1 %), or a column such as `Oscillation "
-                             "strain (%)` in the file{}",
+                             "strain (%)` or a line such as `Amplitude: 0.1 %` in the file{}",
                              sweep.no_amplitude.empty() ? "" : "; " + sweep.no_amplitude));
   return std::nullopt;
 }
@@ -74,12 +74,13 @@ ImportedSpecimen common_of(const SheetRow& row, const TesterRecord& from) {
                           .extension_column = "",
                           .gauge_mm = row.gauge_mm,
                           .decisions = from.decisions};
-  const bool is_recorded = from.sweep->column(SweepQuantity::amplitude).has_value();
+  const bool is_recorded = from.sweep->has_amplitude();
   common.rate_source = is_recorded ? "record" : "sheet";
   common.provenance = provenance_of_sweep(from, row);
   common.decisions.push_back(
       is_recorded
-          ? std::string("strain rate: angular frequency times the amplitude of the table")
+          ? fmt::format("strain rate: angular frequency times the amplitude of the {}",
+                        from.sweep->has_header_amplitude ? "header" : "table")
           : fmt::format("strain rate: angular frequency times the amplitude {} of the sheet", *row.strain_amplitude));
   for (const auto& [name, text] : from.header) common.record.other_columns.try_emplace(name, text);
   common.record.other_columns.try_emplace(std::string(kSampleColumn), row.record.specimen);
@@ -96,9 +97,11 @@ std::vector<ImportDoubt> doubts_of_sweep(const SheetRow& row, const Sweep& sweep
                            counted(static_cast<int>(left_out), "row"), kStrainRatePerS.least, kStrainRatePerS.most)});
   if (row.rate_is_given)
     doubts.push_back({false, "strain_rate_per_s of the sheet is not used: a sweep has a rate for each frequency"});
-  if (row.strain_amplitude && sweep.column(SweepQuantity::amplitude))
-    doubts.push_back({false, fmt::format("strain_amplitude of the sheet is not used: the file has `{}`",
-                                         sweep.column(SweepQuantity::amplitude)->heading)});
+  if (row.strain_amplitude && sweep.has_amplitude()) {
+    const auto& column = sweep.column(SweepQuantity::amplitude);
+    doubts.push_back({false, fmt::format("strain_amplitude of the sheet is not used: the file has {}",
+                                         column ? fmt::format("`{}`", column->heading) : "one in its header")});
+  }
   const auto [least, most] =
       std::minmax_element(sweep.points.begin(), sweep.points.end(),
                           [](const auto& a, const auto& b) { return a.modulus_pa < b.modulus_pa; });

@@ -10,6 +10,15 @@
 namespace nacre::measurement {
 namespace {
 
+/// Of a machine beyond the stiffest of all.
+double further_compliance(const material::Extensions& extensions, int machine) {
+  constexpr const char* kName = "compliance_of_one_machine";
+  const auto found = extensions.find(kName);
+  if (found == extensions.end()) return 0.0;
+  const double least = std::min(0.0, *std::ranges::min_element(found->second));
+  return (machine > 0 ? material::extension_value(extensions, kName, machine - 1) : 0.0) - least;
+}
+
 /// The machine as the extensions describe it, and how far the print has drifted in one context.
 struct TestingMachine {
   double compliance_per_pa = 0.0, slack = 0.0, gain = 1.0, drift = 1.0;
@@ -20,9 +29,9 @@ struct TestingMachine {
         gain(1.0 + material::extension_value(extensions, "load_cell_gain")) {
     const double per_step = material::extension_value(extensions, "batch_drift");
     if (per_step != 0.0) drift = std::exp(context.batch_step * std::log1p(per_step));
-    const double further = material::extension_value(extensions, "compliance_of_one_machine");
-    compliance_per_pa += std::max(0.0, context.on_second_machine ? further : -further);
-    if (context.on_second_machine) gain *= 1.0 + material::extension_value(extensions, "gain_of_one_machine");
+    compliance_per_pa += further_compliance(extensions, context.machine);
+    if (context.machine > 0)
+      gain *= 1.0 + material::extension_value(extensions, "gain_of_one_machine", context.machine - 1);
   }
   bool is_ideal() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
 };

@@ -6,8 +6,8 @@
 //   drift       E (1 + d)^batch_step, stresses alike
 //   compliance  1/E_recorded = 1/E + c: a spring in series
 //   load cell   recorded force = (1 + g) force
-//   of two machines one may have a further c, the second where it is above 0 and the first where it is below, and the
-//   second a further g
+//   of several machines each but the first has a further g and c; where some c are below 0 all machines have as much
+//   more as the least needs to be 0
 //   curve       strain_recorded = s + strain + c sigma
 
 #include <functional>
@@ -20,8 +20,8 @@ namespace nacre::measurement {
 
 /// The position of a specimen among the others of its set, for the effects that depend on it.
 struct PrintContext {
-  double batch_step = 0.0;         ///< batches after the first one, in the order of printing
-  bool on_second_machine = false;  ///< of two
+  double batch_step = 0.0;  ///< batches after the first one, in the order of printing
+  int machine = 0;          ///< number of the machine among those of the set
 };
 
 /// The contexts of a set's specimens, in their order. Batches follow each other by name, numbers in their natural order

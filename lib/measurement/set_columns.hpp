@@ -30,10 +30,13 @@ inline constexpr std::array<std::string_view, kColumnCount> kColumns = {
     "batch",    "print_order", "thickness_mm", "modulus_pa",      "toughness_pa",
     "curve",    "valid",       "note"};
 
-/// Surroundings of a test, which piece it was made of, how long its strain was held, the programme of a coupon: kept
-/// like any other column, but known to a diagnosis.
-inline constexpr std::array<std::string_view, 6> kConditionColumns = {"sample",   "temperature_c", "humidity_pct",
-                                                                      "age_days", "hold_s",        "loading"};
+/// The order in which a machine made its tests: a number.
+inline constexpr std::string_view kTestOrderColumn = "test_order";
+
+/// Surroundings of a test, when it was made, of which piece, how long its strain was held, the programme of a coupon:
+/// kept like any other column, but known to a diagnosis.
+inline constexpr std::array<std::string_view, 7> kConditionColumns = {
+    "sample", "temperature_c", "humidity_pct", "age_days", kTestOrderColumn, "hold_s", "loading"};
 
 /// Further columns that `nacre import` writes: kept with the specimen like any other column, but known.
 inline constexpr std::array<std::string_view, 11> kHistoryColumns = {"date",

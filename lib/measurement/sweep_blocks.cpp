@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <string>
 
 #include "measurement/cell_units.hpp"
 #include "measurement/heading_lines.hpp"
 #include "measurement/sweep_columns.hpp"
+#include "measurement/sweep_header.hpp"
 #include "measurement/tester_delimiter.hpp"
 #include "measurement/tester_header.hpp"
 #include "measurement/tester_text.hpp"
@@ -47,7 +49,10 @@ class SweepFinder {
     return {cells.begin(), cells.end()};
   }
 
-  static bool names_sweep(const std::vector<std::string>& names, const std::vector<std::string>& units) {
+  /// Whether a heading in this line names a frequency (or the lines above tell it) and a storage modulus, or a time and
+  /// what relaxes.
+  bool names_sweep(std::size_t line, const std::vector<std::string>& names,
+                   const std::vector<std::string>& units) const {
     std::set<SweepQuantity> named;
     bool is_pull = false;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -59,9 +64,20 @@ class SweepFinder {
     const auto has = [&](SweepQuantity one, SweepQuantity other) {
       return named.contains(one) && named.contains(other);
     };
-    return has(SweepQuantity::frequency, SweepQuantity::storage_modulus) ||
-           has(SweepQuantity::time, SweepQuantity::relaxation_modulus) ||
-           (has(SweepQuantity::time, SweepQuantity::stress) && !is_pull);
+    if (has(SweepQuantity::time, SweepQuantity::relaxation_modulus) ||
+        (has(SweepQuantity::time, SweepQuantity::stress) && !is_pull))
+      return true;
+    if (!named.contains(SweepQuantity::storage_modulus)) return false;
+    if (named.contains(SweepQuantity::frequency)) return true;
+    if (!named.contains(SweepQuantity::temperature) && !named.contains(SweepQuantity::amplitude)) return false;
+    const auto own = std::span(lines_).subspan(words_, line - words_);
+    return has_frequency_above_ || sweep_header_of(own, 1, tables_.delimiter).angular_frequency_per_s.has_value();
+  }
+
+  static bool names_frequency(const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+      return recognise_sweep_column(name).quantity == SweepQuantity::frequency;
+    });
   }
 
   /// Whether a line may be one of words: numbers stand below headings.
@@ -76,10 +92,10 @@ class SweepFinder {
     const Cells upper = cells_at(line), lower = cells_at(line + 1);
     if (!are_words(upper)) return {};
     const std::vector<std::string> names(upper.begin(), upper.end());
-    if (names_sweep(names, units_at(line + 1))) return {names, line + 1};
-    if (!are_words(lower) || names_sweep({lower.begin(), lower.end()}, units_at(line + 2))) return {};
+    if (names_sweep(line, names, units_at(line + 1))) return {names, line + 1};
+    if (!are_words(lower) || names_sweep(line + 1, {lower.begin(), lower.end()}, units_at(line + 2))) return {};
     const std::vector<std::string> joined = joined_headings(upper, lower);
-    if (names_sweep(joined, units_at(line + 2))) return {joined, line + 2};
+    if (names_sweep(line, joined, units_at(line + 2))) return {joined, line + 2};
     return {};
   }
 
@@ -97,7 +113,12 @@ class SweepFinder {
     }
     for (std::size_t i = 0; i < heading.names.size(); ++i)
       block.columns.push_back(recognise_column(heading.names[i], i < units.size() ? units[i] : ""));
-    for (; next < lines_.size() && heading_at(next).names.empty(); ++next) take_row(block, next);
+    words_ = next;
+    has_frequency_above_ = has_frequency_above_ || !names_frequency(heading.names);
+    for (; next < lines_.size() && heading_at(next).names.empty(); ++next) {
+      take_row(block, next);
+      if (!block.lines.empty()) words_ = block.lines.back() + 1;
+    }
     block.begins.push_back(block.cells.size());
     if (block.has_cell_units) take_units_out(block);
     tables_.blocks.push_back(std::move(block));
@@ -122,6 +143,8 @@ class SweepFinder {
 
   const std::vector<std::string_view>& lines_;
   ExportTables tables_;
+  std::size_t words_ = 0;  ///< index of the line below the last row
+  bool has_frequency_above_ = false;
 };
 
 /// Those that may be tried.
@@ -154,9 +177,11 @@ std::optional<ImportFault> fault_of_no_frequency(const std::vector<std::string_v
         return has_letter(cell) && recognise_sweep_column(cell).quantity == SweepQuantity::storage_modulus;
       });
       if (filled(cells) < 2 || modulus == cells.end()) continue;
-      return ImportFault{file, static_cast<int>(i) + 1, std::string(*modulus),
-                         "a storage modulus, but no column of frequency is with it, expected one such as `Frequency "
-                         "(Hz)` or `Angular frequency (rad/s)`"};
+      return ImportFault{
+          file, static_cast<int>(i) + 1, std::string(*modulus),
+          "a storage modulus, but no column of frequency is with it, expected one such as `Frequency "
+          "(Hz)` or `Angular frequency (rad/s)`, or one frequency in the lines above, `Frequency: 1 Hz`, "
+          "and a column of temperature or amplitude"};
     }
   }
   return std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
-// Second stage of reading a frequency sweep: lines -> tables with a column of frequency and one of storage modulus; or
-// of a relaxation, with a column of time and one of relaxation modulus, or of stress where no column tells a strain.
+// Second stage of reading a frequency sweep: lines -> tables with a column of frequency, or one frequency above
+// them, and one of storage modulus; or of a relaxation, with a column of time and one of relaxation modulus, or of
+// stress where no column tells a strain.
 
 #include <optional>
 #include <string>

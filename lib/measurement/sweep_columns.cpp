@@ -76,6 +76,8 @@ constexpr std::string_view kAmplitudes[] = {
     "ampiezza",
     "振幅",
     "oscillation strain",
+    "oscillation displacement",
+    "dynamic displacement",
     "oscillatory strain",
     "dynamic strain",
     "dynamische dehnung",
@@ -232,6 +234,12 @@ bool names_amplitude(SweepColumn& column) {
   const ColumnName& name = column.name;
   const bool is_strain = name.quantity == Quantity::strain, is_amplitude = holds_one(kAmplitudes, name.name);
   if ((!is_strain && !is_amplitude) || holds_one(kStaticStrains, name.name)) return false;
+  column.is_length =
+      is_amplitude && !unit_factor(Quantity::strain, name.unit) && unit_factor(Quantity::extension, name.unit);
+  if (column.is_length) {
+    column.rank = 3;
+    return true;
+  }
   if (name.unit.empty() ? name.quantity && !is_strain : !unit_factor(Quantity::strain, name.unit)) return false;
   column.rank = set_point_words().finds_one(name.name) ? 2 : is_amplitude ? 0 : 1;
   return true;
@@ -257,7 +265,7 @@ std::string_view to_string(SweepQuantity quantity) {
 std::string_view expected_units(SweepQuantity quantity) {
   constexpr std::string_view kStresses = "Pa, kPa, MPa, GPa, psi";
   constexpr std::array<std::string_view, kSweepQuantities> kUnits = {
-      "Hz, kHz, mHz, rad/s", kStresses, "%, mm/mm, ustrain", "C, K, F", "s, ms, min, h", kStresses, kStresses};
+      "Hz, kHz, mHz, rad/s", kStresses, "%, mm/mm, ustrain, um", "C, K, F", "s, ms, min, h", kStresses, kStresses};
   return kUnits[static_cast<std::size_t>(quantity)];
 }
 
@@ -277,7 +285,7 @@ std::optional<SweepUnit> unit_of_sweep(const SweepColumn& column, std::string_vi
     case SweepQuantity::stress:
       return scaled(unit_factor(Quantity::stress, unit));
     case SweepQuantity::amplitude:
-      return scaled(unit_factor(Quantity::strain, unit));
+      return scaled(unit_factor(column.is_length ? Quantity::extension : Quantity::strain, unit));
     case SweepQuantity::time:
       return scaled(unit_factor(Quantity::time, unit));
     default:
@@ -304,6 +312,7 @@ SweepColumn recognise_sweep_column(std::string_view heading, std::string_view un
        {SweepQuantity::stress, names_stress}}};
   for (const auto& [quantity, is_named] : kRules) {
     column.name = as_read;
+    column.is_length = false;
     column.quantity = quantity;
     if (is_named(column)) {
       column.name.heading = heading;

@@ -15,7 +15,7 @@ enum class SweepQuantity { frequency, storage_modulus, amplitude, temperature, t
 inline constexpr std::size_t kSweepQuantities = 7;
 std::string_view to_string(SweepQuantity quantity);  ///< as they are named above
 
-/// From a unit to rad/s, Pa, 1 (strain), degrees Celsius or s: factor * value + offset.
+/// From a unit to rad/s, Pa, 1 (strain), mm (displacement), degrees Celsius or s: factor * value + offset.
 struct SweepUnit {
   double factor = 1.0, offset = 0.0;
   double base(double value) const { return factor * value + offset; }
@@ -28,6 +28,7 @@ struct SweepColumn {
   int rank = 0;             ///< among columns of one quantity the smallest is preferred
   bool is_angular = false;  ///< a frequency that its name says to be in rad/s
   bool is_sample = false;   ///< tells which piece a row belongs to; a number of rows or runs does not
+  bool is_length = false;   ///< an amplitude of the displacement: its unit is mm
   bool is_shear = false;    ///< says that the test is in shear, where no modulus is Young's
 };
 

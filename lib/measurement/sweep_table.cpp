@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "base/counted.hpp"
 #include "measurement/decimal_marks.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/sweep_header.hpp"
 #include "measurement/tester_delimiter.hpp"
 #include "measurement/tester_text.hpp"
 
@@ -19,9 +21,15 @@ namespace {
 /// Adds the points of one table to a sweep.
 class SweepReader {
  public:
-  SweepReader(const TableBlock& block, char delimiter, const ColumnChoice& choice, const std::string& file,
-              Sweep& sweep)
-      : block_(block), delimiter_(delimiter), choice_(choice), file_(file), sweep_(sweep), rows_(block.rows()) {
+  SweepReader(const TableBlock& block, SweepHeader header, char delimiter, const ColumnChoice& choice,
+              const std::string& file, Sweep& sweep)
+      : block_(block),
+        header_(std::move(header)),
+        delimiter_(delimiter),
+        choice_(choice),
+        file_(file),
+        sweep_(sweep),
+        rows_(block.rows()) {
     std::iota(rows_.begin(), rows_.end(), std::size_t{0});
     for (const ColumnName& name : block.columns) columns_.push_back(recognise_sweep_column(name.heading, name.unit));
   }
@@ -31,6 +39,7 @@ class SweepReader {
     choose_axes();
     for (const SweepQuantity quantity : {axis_, modulus_, SweepQuantity::amplitude, SweepQuantity::temperature})
       take(quantity);
+    take_header();
     refuse_shear();
     find_marks();
     if (!fault_) read_points();
@@ -76,7 +85,8 @@ class SweepReader {
 
   /// A table of both is one of frequencies.
   void choose_axes() {
-    if (has(SweepQuantity::frequency) && has(SweepQuantity::storage_modulus)) return;
+    const bool tells_frequency = has(SweepQuantity::frequency) || header_.angular_frequency_per_s;
+    if (tells_frequency && has(SweepQuantity::storage_modulus)) return;
     axis_ = SweepQuantity::time;
     modulus_ = has(SweepQuantity::relaxation_modulus) ? SweepQuantity::relaxation_modulus : SweepQuantity::stress;
   }
@@ -136,6 +146,11 @@ class SweepReader {
       return;
     }
     if (!unit) return reject(block_.unit_line + 1, column.name.heading, unit_fault(column));
+    if (column.is_length && !header_.length_mm) {
+      sweep_.no_amplitude = fmt::format("`{}` in line {} {}", column.name.heading, block_.heading + 1, kNoLength);
+      return;
+    }
+    if (column.is_length) say_length(fmt::format("`{}`", column.name.heading));
     if (!shown.not_taken.empty())
       say(fmt::format("{}: `{}` taken, not `{}`", to_string(quantity), shown.heading,
                       fmt::join(shown.not_taken, "`, `")));
@@ -143,6 +158,46 @@ class SweepReader {
     taken(quantity) = Taken{places.front(), *unit};
     auto& first = sweep_.taken[static_cast<std::size_t>(quantity)];
     if (!first) first = std::move(shown);
+  }
+
+  static constexpr std::string_view kNoLength =
+      "is a length: expected the sample's length in the lines above the table too, such as `Sample length: 17.5 mm`";
+
+  void say_length(const std::string& amplitude) {
+    say(fmt::format("amplitude: {} over the sample's length, {} in line {} of the header", amplitude,
+                    header_.length_mm->text, header_.length_mm->line));
+  }
+
+  /// What has no column is the header's, the same in all rows.
+  void take_header() {
+    if (axis_ != SweepQuantity::frequency) return;
+    if (const auto& frequency = header_.angular_frequency_per_s; frequency && !taken(SweepQuantity::frequency))
+      say(fmt::format("frequency: {} in line {} of the header", frequency->text, frequency->line));
+    if (taken(SweepQuantity::amplitude)) return;
+    if (header_.amplitude) {
+      say(fmt::format("amplitude: {} in line {} of the header", header_.amplitude->text, header_.amplitude->line));
+      header_amplitude_ = header_.amplitude->value;
+    } else if (header_.amplitude_mm && header_.length_mm) {
+      say_length(fmt::format("{} in line {}", header_.amplitude_mm->text, header_.amplitude_mm->line));
+      header_amplitude_ = header_.amplitude_mm->value / header_.length_mm->value;
+    } else if (header_.amplitude_mm) {
+      sweep_.no_amplitude = fmt::format("the amplitude {} in line {} {}", header_.amplitude_mm->text,
+                                        header_.amplitude_mm->line, kNoLength);
+    }
+    sweep_.has_header_amplitude = sweep_.has_header_amplitude || header_amplitude_.has_value();
+  }
+
+  std::optional<double> amplitude_of(std::size_t row) {
+    const auto& column = taken(SweepQuantity::amplitude);
+    if (!column) return header_amplitude_;
+    const auto own = value(row, SweepQuantity::amplitude);
+    return own && columns_[column->place].is_length ? std::optional(*own / header_.length_mm->value) : own;
+  }
+
+  std::optional<double> frequency_of(std::size_t row) {
+    if (taken(SweepQuantity::frequency)) return value(row, SweepQuantity::frequency);
+    if (!header_.angular_frequency_per_s) return std::nullopt;
+    return header_.angular_frequency_per_s->value;
   }
 
   /// A modulus that is not named E' may be one in shear, a third of it.
@@ -184,9 +239,9 @@ class SweepReader {
     std::vector<int> left_out;
     for (const std::size_t row : rows_) {
       const int line = static_cast<int>(block_.lines[row]) + 1;
-      const auto at = value(row, axis_), modulus = value(row, modulus_),
-                 amplitude = value(row, SweepQuantity::amplitude);
       const bool is_sweep = axis_ == SweepQuantity::frequency;
+      const auto at = is_sweep ? frequency_of(row) : value(row, axis_), modulus = value(row, modulus_),
+                 amplitude = amplitude_of(row);
       const bool lacks_amplitude = is_sweep && taken(SweepQuantity::amplitude) && amplitude.value_or(0.0) <= 0.0;
       if (at.value_or(0.0) <= 0.0 || modulus.value_or(0.0) <= 0.0 || lacks_amplitude) {
         left_out.push_back(line);
@@ -208,6 +263,8 @@ class SweepReader {
   }
 
   const TableBlock& block_;
+  SweepHeader header_;
+  std::optional<double> header_amplitude_;
   char delimiter_;
   const ColumnChoice& choice_;
   const std::string& file_;
@@ -222,12 +279,20 @@ class SweepReader {
 
 }  // namespace
 
-tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const ColumnChoice& choice,
-                                          const std::string& file) {
+tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const std::vector<std::string_view>& lines,
+                                          const ColumnChoice& choice, const std::string& file) {
   Sweep sweep;
   std::vector<std::size_t> headings;
+  SweepHeader first_header;
+  std::size_t above = 0;
   for (const TableBlock& block : tables.blocks) {
-    if (auto fault = SweepReader(block, tables.delimiter, choice, file, sweep).read()) return tl::unexpected(*fault);
+    const auto own = std::span(lines).subspan(above, block.heading - above);
+    const SweepHeader header =
+        with_missing_of(sweep_header_of(own, static_cast<int>(above) + 1, tables.delimiter), first_header);
+    if (above == 0) first_header = header;
+    above = block.lines.empty() ? block.heading + 1 : block.lines.back() + 1;
+    if (auto fault = SweepReader(block, header, tables.delimiter, choice, file, sweep).read())
+      return tl::unexpected(*fault);
     headings.push_back(block.heading + 1);
     if (block.statistics > 0)
       sweep.decisions.push_back(

@@ -23,28 +23,31 @@ struct SweepPoint {
   double angular_frequency_per_s = 0.0;  ///< of a sweep
   double time_s = 0.0;                   ///< of a relaxation
   double modulus_pa = 0.0;               ///< E', relaxation modulus, or the stress of a relaxation without one
-  std::optional<double> amplitude;       ///< of the strain, or held; nothing where the table has no such column
+  std::optional<double> amplitude;       ///< of the strain, or held; nothing where neither table nor header tells it
   std::optional<double> temperature_c;   ///< nothing where the table tells none
 };
 
 struct Sweep {
   std::vector<SweepPoint> points;                                       ///< at least one
   std::array<std::optional<TakenColumn>, kSweepQuantities> taken = {};  ///< of the first table
-  std::string no_amplitude;            ///< why a column of amplitude was not taken; empty where there is none
+  std::string no_amplitude;            ///< why an amplitude was not taken; empty where there is none
+  bool has_header_amplitude = false;   ///< the amplitude of all points is that of the header
   std::vector<std::string> decisions;  ///< columns, units, rows left out, as sentences
   std::vector<std::string> warnings;
   char decimal_mark = '.';
+  bool has_amplitude() const { return has_header_amplitude || column(SweepQuantity::amplitude).has_value(); }
   const std::optional<TakenColumn>& column(SweepQuantity quantity) const {
     return taken[static_cast<std::size_t>(quantity)];
   }
   bool is_relaxation() const { return column(SweepQuantity::time).has_value(); }
 };
 
-/// Reads the tables of sweep_tables_of() one after the other. Of several columns of a quantity the first with a unit
-/// and the most usual name is taken. Rows without positive numbers are left out; of a sweep also those without an
-/// amplitude. The fault names line and column: no unit, a test in shear, torn rows, decimal points and commas, no row
-/// left.
-tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const ColumnChoice& choice,
-                                          const std::string& file);
+/// Reads the tables of sweep_tables_of() one after the other; `lines` are the file's. A table without a column of
+/// frequency or amplitude has those of the lines above it, and an amplitude of the displacement becomes one of the
+/// strain by the sample's length there. Of several columns of a quantity the first with a unit and the most usual name
+/// is taken. Rows without positive numbers are left out; of a sweep also those without an amplitude. The fault names
+/// line and column: no unit, a test in shear, torn rows, decimal points and commas, no row left.
+tl::expected<Sweep, ImportFault> sweep_of(const ExportTables& tables, const std::vector<std::string_view>& lines,
+                                          const ColumnChoice& choice, const std::string& file);
 
 }  // namespace nacre::measurement

@@ -55,7 +55,7 @@ tl::expected<std::vector<TesterRecord>, ImportFault> sweep_records(const ExportT
                                                                    const std::vector<std::string_view>& lines,
                                                                    const ColumnChoice& choice,
                                                                    const std::string& file) {
-  auto sweep = sweep_of(tables, choice, file);
+  auto sweep = sweep_of(tables, lines, choice, file);
   if (!sweep) return tl::unexpected(sweep.error());
   const std::vector<SweepPoint> points = std::exchange(sweep->points, {});
   TesterRecord common;

@@ -2,6 +2,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/json.hpp"
+#include "diagnosis/test_drift.hpp"
 #include "diagnosis/words.hpp"
 #include "offline/json_parts.hpp"
 #include "offline/specimen_units.hpp"
@@ -13,6 +14,7 @@ DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosi
   diagnosis::Diagnosis& diagnosis = diagnosed.diagnosis;
   diagnosis.data = diagnosis::summary_of_data(set.specimens, settings.procedure.noise);
   if (diagnosis.verdict == diagnosis::Verdict::insufficient) diagnosis.summary += trends_in_words(diagnosis.data);
+  diagnosis.summary += in_words(diagnosis::test_drifts(set.specimens));
   ExpectedMaterials expected{settings.start, settings.start};
   if (diagnosis.base_fit.modulus) expected.of_layouts.modulus = *diagnosis.base_fit.modulus;
   if (diagnosis.base_fit.coupon) expected.of_homogeneous.modulus = *diagnosis.base_fit.coupon;

@@ -237,9 +237,9 @@ Exhibit next_exhibit(const Diagnosis& d) {
   Exhibit exhibit{.id = "next", .heading = "The next test"};
   for (const auto& e : d.next_experiments) {
     exhibit.list.push_back(fmt::format(
-        "<strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens; {}.", tester::to_string(e.test),
+        "<strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm{}, {} specimens; {}.", tester::to_string(e.test),
         design_name(pattern::readable_name(e.design)), e.conditions.orientation_deg, e.conditions.strain_rate_per_s,
-        e.conditions.thickness_mm, e.replicates, escaped(e.reason)));
+        e.conditions.thickness_mm, escaped(surroundings_in_words(e)), e.replicates, escaped(e.reason)));
   }
   if (exhibit.list.empty()) exhibit.notes.push_back(why_no_test(d));
   return exhibit;

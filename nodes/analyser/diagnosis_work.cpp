@@ -9,6 +9,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/fracture_plan.hpp"
 #include "diagnosis/kept_emulator.hpp"
+#include "diagnosis/words.hpp"
 #include "material/extensions.hpp"
 #include "runtime/farm_requests.hpp"
 #include "runtime/journal.hpp"
@@ -165,7 +166,8 @@ wire::Diagnosis message_of(const diagnosis::Diagnosis& d, int round) {
                                        .reduction_low = d.gain->interval_low,
                                        .reduction_high = d.gain->interval_high};
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    message.next_experiments.push_back({e.design, e.test, e.conditions, e.replicates, e.loading, e.reason});
+    message.next_experiments.push_back(
+        {e.design, e.test, e.conditions, e.replicates, e.loading, e.reason + diagnosis::surroundings_in_words(e)});
   }
   return message;
 }

@@ -83,8 +83,9 @@ void print_trends_and_next_tests(const diagnosis::Diagnosis& d) {
                d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    fmt::print("  next test: {} of {}{}, {}: {}\n", tester::to_string(e.test), pattern::readable_name(e.design),
-               conditions_in_words(e.conditions), counted(e.replicates, "specimen"), e.reason);
+    fmt::print("  next test: {} of {}{}{}, {}: {}\n", tester::to_string(e.test), pattern::readable_name(e.design),
+               conditions_in_words(e.conditions), diagnosis::surroundings_in_words(e),
+               counted(e.replicates, "specimen"), e.reason);
   }
 }
 

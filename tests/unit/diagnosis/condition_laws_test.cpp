@@ -9,6 +9,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "made_specimens.hpp"
 #include "material/rate_laws.hpp"
+#include "synthetic_set.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -103,6 +104,147 @@ TEST(ConditionLaws, MachinesAreBlamedBesideARateLaw) {
   ASSERT_EQ(diagnosis.effects.size(), 2u);
   EXPECT_EQ(diagnosis.effects.front().name, "rate_power_law");
   EXPECT_EQ(diagnosis.effects.back().name, "gain_of_one_machine");
+}
+
+/// Rigid, interface and soft specimens on three machines.
+std::vector<Made> on_three_machines() {
+  std::vector<Made> all;
+  for (const double share : {1.0, 0.5, 0.0})
+    for (const char* machine : {"A", "B", "C"}) all.push_back({share, 1e-3, {{"machine", machine}}});
+  return all;
+}
+
+TEST(ConditionLaws, EachOfThreeMachinesHasItsGain) {
+  const auto law = [](const Made& made) {
+    const std::string& machine = made.columns.at("machine");
+    return stiffness_of(made) * (machine == "B" ? 1.2 : machine == "C" ? 0.85 : 1.0);
+  };
+  const Diagnosis diagnosis = diagnose(in_batches(specimens_of(on_three_machines(), law)), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  const NamedEffect& gain = diagnosis.effects.front();
+  EXPECT_EQ(gain.name, "gain_of_one_machine");
+  EXPECT_EQ(gain.each, (std::vector<std::string>{"B", "C"}));
+  EXPECT_NEAR(gain.parameter, 0.2, 0.04);
+  ASSERT_EQ(gain.further.size(), 1u);
+  EXPECT_NEAR(gain.further.front().value, -0.15, 0.04);
+  EXPECT_NE(diagnosis.summary.find("of the machine \"C\""), std::string::npos) << diagnosis.summary;
+}
+
+// The stiffest machine is the second: the others have springs beyond it.
+TEST(ConditionLaws, EachOfThreeMachinesHasItsSpring) {
+  const auto law = [](const Made& made) {
+    const std::string& machine = made.columns.at("machine");
+    const double per_pa = machine == "A" ? 1e-10 : machine == "C" ? 2.5e-10 : 0.0;
+    return 1.0 / (1.0 / stiffness_of(made) + 2e9 * per_pa);
+  };
+  const Diagnosis diagnosis = diagnose(in_batches(specimens_of(on_three_machines(), law)), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  const NamedEffect& spring = diagnosis.effects.front();
+  EXPECT_EQ(spring.name, "compliance_of_one_machine");
+  EXPECT_NEAR(spring.parameter, -1e-10, 2e-11);
+  ASSERT_EQ(spring.further.size(), 1u);
+  EXPECT_NEAR(spring.further.front().value, 1.5e-10, 3e-11);
+}
+
+// A and B share batches, C has prints of its own.
+TEST(ConditionLaws, AThirdMachineThatSharesNoPrintsIsNotBlamed) {
+  const auto law = [](const Made& made) { return reads_higher(made); };
+  std::vector<measurement::SpecimenRecord> specimens = in_batches(specimens_of(on_three_machines(), law));
+  for (measurement::SpecimenRecord& specimen : specimens)
+    if (specimen.other_columns.at("machine") == "C") specimen.batch = "of C alone";
+  const Diagnosis diagnosis = diagnose(specimens, quick_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_TRUE(diagnosis.cautions.machines_not_compared);
+}
+
+/// Six layouts and the base materials, every replicate a batch, each on both machines.
+std::vector<measurement::SpecimenRecord> layouts_on_two_machines(const material::Extensions& of_second) {
+  const material::ParameterSet truth = synthetic_truth();
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({.patterns = 6, .twins = 0}, truth);
+  for (measurement::SpecimenRecord& specimen : synthetic_base_materials(truth)) specimens.push_back(specimen);
+  const std::size_t count = specimens.size();
+  RandomStream noise(5, "test/factors");
+  for (std::size_t i = 0; i < count; ++i) {
+    specimens[i].batch = "batch-" + std::to_string(1 + i % 3);
+    measurement::SpecimenRecord again = specimens[i];
+    specimens[i].other_columns["machine"] = "A";
+    again.specimen += " again";
+    again.other_columns["machine"] = "B";
+    again.modulus_pa =
+        measurement::observe_modulus(*again.modulus_pa, of_second, {.machine = 1}) * std::exp(0.015 * noise.normal());
+    specimens.push_back(again);
+  }
+  return specimens;
+}
+
+// What a machine does to all specimens it does to layouts too.
+TEST(ConditionLaws, MachinesAreBlamedAlsoWhereThereAreLayouts) {
+  const Diagnosis diagnosis = diagnose(layouts_on_two_machines({{"gain_of_one_machine", {0.2}}}), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.effects.front().name, "gain_of_one_machine");
+  EXPECT_NEAR(diagnosis.effects.front().parameter, 0.2, 0.03);
+}
+
+/// Rigid and soft specimens at each of these values.
+std::vector<Made> at_values_of(const std::string& column, const std::vector<std::string>& values) {
+  std::vector<Made> all;
+  for (const double share : {1.0, 0.0})
+    for (const std::string& value : values) all.push_back({share, 1e-3, {{column, value}}});
+  return all;
+}
+
+/// The rigid material takes water up, the soft one hardly.
+double moist(const Made& made) {
+  const double per_pct = made.rigid_share > 0.5 ? -0.006 : -0.001;
+  return stiffness_of(made) * std::exp(per_pct * (std::stod(made.columns.at("humidity_pct")) - 50.0));
+}
+
+TEST(ConditionLaws, HumiditySoftensEachMaterialByItsOwnShare) {
+  const Diagnosis diagnosis =
+      diagnose(specimens_of(at_values_of("humidity_pct", {"10", "30", "50", "70", "90"}), moist), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  const NamedEffect& humidity = diagnosis.effects.front();
+  EXPECT_EQ(humidity.name, "humidity_dependence");
+  EXPECT_EQ(humidity.each, (std::vector<std::string>{"rigid", "soft"}));
+  EXPECT_NEAR(humidity.parameter, -0.006, 0.001);
+  EXPECT_NEAR(humidity.further.front().value, -0.001, 0.001);
+}
+
+// Two values tell that it acts, and no law. A step is none.
+TEST(ConditionLaws, HumidityWithoutALawKeepsItsLevels) {
+  const Diagnosis two = diagnose(specimens_of(at_values_of("humidity_pct", {"20", "80"}), moist), quick_settings());
+  EXPECT_EQ(to_string(two.verdict), "unexplained") << two.summary;
+  EXPECT_EQ(two.finding.reason, Reason::factor);
+  const auto step = [](const Made& made) {
+    return stiffness_of(made) * (std::stod(made.columns.at("humidity_pct")) < 40.0 ? 1.0 : 0.7);
+  };
+  const Diagnosis diagnosis =
+      diagnose(specimens_of(at_values_of("humidity_pct", {"10", "30", "50", "70", "90"}), step), quick_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+}
+
+double aged(const Made& made) {
+  return stiffness_of(made) * std::pow(1.0 + std::stod(made.columns.at("age_days")), 0.04);
+}
+
+TEST(ConditionLaws, AMaterialStiffensWithItsAge) {
+  const Diagnosis diagnosis =
+      diagnose(specimens_of(at_values_of("age_days", {"1", "3", "10", "30", "100"}), aged), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects.front().name, "ageing");
+  EXPECT_NEAR(diagnosis.effects.front().parameter, 0.04, 0.01);
+}
+
+// Old specimens on one machine, new ones on another.
+TEST(ConditionLaws, AnAgeThatGoesWithTheMachineGetsNoName) {
+  std::vector<Made> all;
+  for (const auto& [age_days, machine] : {std::pair{"1", "A"}, {"10", "B"}, {"100", "C"}})
+    for (const double share : {1.0, 0.0}) all.push_back({share, 1e-3, {{"age_days", age_days}, {"machine", machine}}});
+  const Diagnosis diagnosis = diagnose(in_batches(specimens_of(all, aged)), quick_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.cautions.alike, std::vector<std::string>{"machine"});
+  ASSERT_FALSE(diagnosis.next_experiments.empty()) << "one of both would part them";
 }
 
 const material::Phases kPhases = material::phases_of(material::default_parameters().modulus);

@@ -33,10 +33,14 @@ Observations observations_of(const std::vector<measurement::SpecimenRecord>& spe
   return observe(specimens, 0.0, {}, {});
 }
 
-TEST(Factors, VaryingOnesAreThoseOfHomogeneousSpecimensAlone) {
+// Effects of the library tell how layouts go with rate, orientation and thickness.
+TEST(Factors, LayoutsHaveThemWhereSurroundingsVary) {
   std::vector<measurement::SpecimenRecord> specimens = specimens_of(rates_at_temperatures(), warm_and_slow);
-  EXPECT_EQ(varying_factors(observations_of(specimens)), (std::vector<std::string>{"strain rate", "temperature"}));
+  const std::vector<std::string> both = {"strain rate", "temperature"};
+  EXPECT_EQ(varying_factors(observations_of(specimens)), both);
   specimens.push_back(synthetic_specimens({.patterns = 1, .twins = 0, .replicates = 1}, synthetic_truth()).front());
+  EXPECT_EQ(varying_factors(observations_of(specimens)), both);
+  for (measurement::SpecimenRecord& specimen : specimens) specimen.other_columns.erase("temperature_c");
   EXPECT_TRUE(varying_factors(observations_of(specimens)).empty());
 }
 

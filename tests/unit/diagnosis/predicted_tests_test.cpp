@@ -99,7 +99,7 @@ TEST_F(MixedDroplets, PromiseWhatAModulusThenGives) {
   ASSERT_EQ(tests.size(), 4u);
   const std::vector<FittedModel> models = {single(evidence, "droplet_mixing"), single(evidence, "rigid_overprint"),
                                            evidence.base.fit};
-  const PredictedTests predicted(evidence, models, tests, kReplicates);
+  const PredictedTests predicted(evidence, beside_levels_of(evidence, models), tests, kReplicates);
   const auto misfits = [&](const Observations& rows) {
     ExactData data(evidence, rows);
     return std::array{data.misfit(models[0], models[1]), data.misfit(models[1], models[0]),
@@ -123,7 +123,7 @@ TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
   std::erase_if(twins, [](const PossibleTest& test) { return !is_twin(test.way.kind); });
   const std::vector<FittedModel> models = {single(evidence, "droplet_mixing"),
                                            single(evidence, "interface_anisotropy")};
-  const PredictedTests predicted(evidence, models, twins, kReplicates);
+  const PredictedTests predicted(evidence, beside_levels_of(evidence, models), twins, kReplicates);
   double most_turned = 0.0;
   for (std::size_t t = 0; t < twins.size(); ++t) {
     const double errors = predicted.separations(t, {{0, 1}}).front().errors;

@@ -35,7 +35,7 @@ TEST(ObserveAlong, FindsTheStressesBehindWhatTheMachineRecorded) {
 }
 
 TEST(Observe, OneOfTwoMachinesReadsOtherwise) {
-  const PrintContext second{.on_second_machine = true};
+  const PrintContext second{.machine = 1};
   const material::Extensions gain = {{"gain_of_one_machine", {0.2}}}, spring = {{"compliance_of_one_machine", {1e-10}}},
                              other_spring = {{"compliance_of_one_machine", {-1e-10}}};
   EXPECT_EQ(observe_modulus(1e9, gain), 1e9);
@@ -44,6 +44,17 @@ TEST(Observe, OneOfTwoMachinesReadsOtherwise) {
   EXPECT_NEAR(observe_modulus(1e9, spring, second), 1e9 / 1.1, 1.0);
   EXPECT_NEAR(observe_modulus(1e9, other_spring), 1e9 / 1.1, 1.0);
   EXPECT_EQ(observe_modulus(1e9, other_spring, second), 1e9);
+}
+
+// Relative to the first: the second is stiffer, the third has twice as soft a spring.
+TEST(Observe, OfThreeMachinesTheStiffestHasNoSpring) {
+  const material::Extensions springs = {{"compliance_of_one_machine", {-1e-10, 1e-10}}},
+                             gains = {{"gain_of_one_machine", {0.2, -0.1}}};
+  EXPECT_EQ(observe_modulus(1e9, springs, {.machine = 1}), 1e9);
+  EXPECT_NEAR(1.0 / observe_modulus(1e9, springs, {}), 1e-9 + 1e-10, 1e-16);
+  EXPECT_NEAR(1.0 / observe_modulus(1e9, springs, {.machine = 2}), 1e-9 + 2e-10, 1e-16);
+  EXPECT_EQ(observe_modulus(1e9, gains, {}), 1e9);
+  EXPECT_NEAR(observe_modulus(1e9, gains, {.machine = 2}), 0.9e9, 1.0);
 }
 
 TEST(ObserveAlong, IsTheSpecimenItselfWithoutAMachine) {
