@@ -143,7 +143,7 @@ Specimens without_fractures(Specimens specimens) {
 
 /// Replicate i of a trial. Of two machines every second replicate is tested on each, and every batch on both.
 lab::Replicate replicate_of(const BlindTrial& trial, const measurement::SpecimenRecord& planned, std::size_t i) {
-  lab::Replicate replicate{planned.specimen, planned.batch, planned.print_order};
+  lab::Replicate replicate{.specimen = planned.specimen, .batch = planned.batch, .print_order = planned.print_order};
   replicate.number = static_cast<int>(i % kReplicates) + 1;
   if (trial.kind != "machines") return replicate;
   replicate.on_second_machine = (i % kReplicates + i / kReplicates) % 2 == 1;
@@ -469,8 +469,9 @@ void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options
     const Result<lab::TrueResponse> response = lab::respond(truth, experiment);
     for (int i = 0; i < ordered["replicates"]; ++i) {
       const std::string number = std::to_string(records.size() + 1);
-      records.push_back(lab::record_specimen(truth, experiment, response,
-                                             {"ordered-" + number, "batch-3", static_cast<int>(records.size()) + 1}));
+      records.push_back(lab::record_specimen(
+          truth, experiment, response,
+          {.specimen = "ordered-" + number, .batch = "batch-3", .print_order = static_cast<int>(records.size()) + 1}));
     }
   }
   measurement::write_measurement_set(folder / "set", records);

@@ -80,7 +80,7 @@ struct EmulatorRules {
   int components = 2;                                           ///< of a feature over the groups, their mean among them
   int runs_of_component = 4;                                    ///< of the base model, at least, for each of these
   double level_sd = 3.0;                                        ///< of a feature's level, in its spread over runs
-  double curved_length = 2.0;                                   ///< of the curved part, in log units of eta
+  double curved_length = 1.0;                                   ///< of the curved part, in log units of eta
   double effect_length = 0.5;                                   ///< of an effect's part, as a share of its range
   double own_share = 0.15;                                      ///< of an effect's variance that depends on eta
   double no_effect = 1e-3;                                      ///< share of its range below which an effect is none

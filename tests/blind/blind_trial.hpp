@@ -77,17 +77,19 @@ using PlannedExperiments = std::function<std::vector<laboratory::Experiment>(std
 /// In which batch a replicate is printed, both counted from 0.
 using BatchOf = std::function<int(const laboratory::Experiment&, int replicate)>;
 
-/// What `nacre diagnose SET --fidelity FIDELITY --json` prints.
-inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::string& fidelity) {
+/// What `nacre diagnose SET --fidelity FIDELITY --json` prints, with these further options.
+inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::string& fidelity,
+                                const std::string& options = "") {
   return nlohmann::json::parse(output_of(std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + set.string() +
-                                         " --fidelity " + fidelity + " --json"));
+                                         " --fidelity " + fidelity + " --json " + options));
 }
 
-/// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and
-/// the opened truth.
+/// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY` and these options, returns
+/// the diagnosis and the opened truth.
 inline OpenedTrial run_trial(
     const std::string& laboratory, const PlannedExperiments& experiments, const std::string& fidelity,
-    const BatchOf& batch_of = [](const laboratory::Experiment&, int replicate) { return replicate; }) {
+    const BatchOf& batch_of = [](const laboratory::Experiment&, int replicate) { return replicate; },
+    const std::string& options = "") {
   const Scratch scratch;
   OpenedTrial trial;
   trial.truth = laboratory::parse_laboratory(laboratory, "trial");
@@ -109,7 +111,7 @@ inline OpenedTrial run_trial(
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);
-  trial.diagnosis = diagnosed(scratch.folder() / "set", fidelity);
+  trial.diagnosis = diagnosed(scratch.folder() / "set", fidelity, options);
   return trial;
 }
 
