@@ -184,7 +184,7 @@ Eigen::MatrixXd level_directions(const Observations& observations, const std::ve
     for (const auto& [values, rows] : cells) all.insert(all.end(), rows.begin(), rows.end());
     if (over_order) append_centred(directions, sd * order, all, observations.values.size());
     const bool is_measured = all.front() < observations.values.size();
-    if (cells.size() < 2 && is_measured) continue;
+    if (cells.size() < 2 && (is_measured || levelled.empty())) continue;
     for (const auto& [values, rows] : cells) {
       Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
       level(rows).setConstant(sd);
