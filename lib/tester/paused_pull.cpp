@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "material/pulled_bar.hpp"
-#include "tester/tensile.hpp"
+#include "tester/coupon_law.hpp"
 
 namespace nacre::tester {
 namespace {

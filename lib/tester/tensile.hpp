@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "material/extended_law.hpp"
 #include "tester/curve.hpp"
 #include "tester/simulation.hpp"
 
@@ -12,8 +11,5 @@ namespace nacre::tester {
 /// Stress at each of the given nominal strains, integrated in real time at the strain rate of the conditions. Error: a
 /// design that is not homogeneous, a strain of -1 or less, a strain at which the law has no state.
 Result<Curve> test_tensile(const Simulation& simulation, const std::vector<double>& strain_history);
-
-/// The law of a homogeneous coupon at the rate of its conditions; it shrank freely before. Error: as above.
-Result<material::ExtendedLaw> coupon_law(const Simulation& simulation);
 
 }  // namespace nacre::tester
