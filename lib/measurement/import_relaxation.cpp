@@ -10,7 +10,6 @@
 #include "measurement/held_strain.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/nominal_curve.hpp"
-#include "measurement/piece.hpp"
 #include "measurement/piece_rows.hpp"
 #include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
@@ -143,17 +142,9 @@ std::map<std::string, std::string> provenance_of_relaxation(const TesterRecord& 
 
 /// What is the same at every time.
 ImportedSpecimen common_of_relaxation(const SheetRow& row, const TesterRecord& from) {
-  ImportedSpecimen common{.record = row.record,
-                          .file = row.file,
-                          .line = row.line,
-                          .maker = from.maker,
-                          .extension_column = "",
-                          .gauge_mm = row.gauge_mm,
-                          .decisions = from.decisions};
+  ImportedSpecimen common = common_of_piece(row, from);
   common.rate_source = "record";
   common.provenance = provenance_of_relaxation(from, row);
-  for (const auto& [name, text] : from.header) common.record.other_columns.try_emplace(name, text);
-  common.record.other_columns.try_emplace(std::string(kSampleColumn), row.record.specimen);
   return common;
 }
 

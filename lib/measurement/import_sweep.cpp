@@ -8,7 +8,6 @@
 
 #include "base/counted.hpp"
 #include "measurement/limits.hpp"
-#include "measurement/piece.hpp"
 #include "measurement/piece_rows.hpp"
 #include "measurement/provenance.hpp"
 #include "measurement/rounded.hpp"
@@ -67,13 +66,7 @@ ImportedSpecimen specimen_at(const SweepPoint& point, double amplitude, Imported
 
 /// What is the same at every frequency.
 ImportedSpecimen common_of(const SheetRow& row, const TesterRecord& from) {
-  ImportedSpecimen common{.record = row.record,
-                          .file = row.file,
-                          .line = row.line,
-                          .maker = from.maker,
-                          .extension_column = "",
-                          .gauge_mm = row.gauge_mm,
-                          .decisions = from.decisions};
+  ImportedSpecimen common = common_of_piece(row, from);
   const bool is_recorded = from.sweep->has_amplitude();
   common.rate_source = is_recorded ? "record" : "sheet";
   common.provenance = provenance_of_sweep(from, row);
@@ -82,8 +75,6 @@ ImportedSpecimen common_of(const SheetRow& row, const TesterRecord& from) {
           ? fmt::format("strain rate: angular frequency times the amplitude of the {}",
                         from.sweep->has_header_amplitude ? "header" : "table")
           : fmt::format("strain rate: angular frequency times the amplitude {} of the sheet", *row.strain_amplitude));
-  for (const auto& [name, text] : from.header) common.record.other_columns.try_emplace(name, text);
-  common.record.other_columns.try_emplace(std::string(kSampleColumn), row.record.specimen);
   return common;
 }
 

@@ -3,8 +3,22 @@
 #include <fmt/format.h>
 
 #include "measurement/limits.hpp"
+#include "measurement/piece.hpp"
 
 namespace nacre::measurement {
+
+ImportedSpecimen common_of_piece(const SheetRow& row, const TesterRecord& from) {
+  ImportedSpecimen common{.record = row.record,
+                          .file = row.file,
+                          .line = row.line,
+                          .maker = from.maker,
+                          .extension_column = "",
+                          .gauge_mm = row.gauge_mm,
+                          .decisions = from.decisions};
+  for (const auto& [name, text] : from.header) common.record.other_columns.try_emplace(name, text);
+  common.record.other_columns.try_emplace(std::string(kSampleColumn), row.record.specimen);
+  return common;
+}
 
 tl::expected<std::vector<ImportedSpecimen>, ImportFault> rows_of_piece(const SheetRow& row,
                                                                        std::vector<ImportedSpecimen> rows,
