@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/factors.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/joined_sets.hpp"
 #include "diagnosis/misfit.hpp"
 #include "material/effect_library.hpp"
 
@@ -188,23 +190,13 @@ double error_with_levels(const Evidence& evidence, const Decision& decision) {
 
 bool machines_are_compared(const Observations& observations) {
   if (observations.machines.size() < 2) return false;
-  std::vector<std::set<std::string>> tested(observations.machines.size());
+  std::map<int, std::set<std::string>> tested;
   for (const Observation& group : observations.groups) {
     std::set<std::string>& own = tested[group.machine];
     for (const std::string& piece : group.pieces) own.insert("piece " + piece);
     for (const std::string& batch : group.batches) own.insert("batch " + batch);
   }
-  std::set<std::string> connected = std::exchange(tested.front(), {});
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::set<std::string>& own : tested) {
-      if (std::ranges::none_of(own, [&](const std::string& name) { return connected.contains(name); })) continue;
-      connected.merge(own);
-      own.clear();
-      grows = true;
-    }
-  }
-  return std::ranges::all_of(tested, [](const std::set<std::string>& own) { return own.empty(); });
+  return joined(tested).size() == 1;
 }
 
 Decision with_condition_laws(const Evidence& evidence, Decision decision) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "diagnosis/joined_sets.hpp"
 #include "measurement/piece.hpp"
 #include "measurement/surroundings.hpp"
 #include "sysid/likelihood.hpp"
@@ -72,23 +73,6 @@ void take_off_batches(std::vector<Deviation>& deviations) {
     take_off_means(deviations, batch_of);
     take_off_means(deviations, [](const Deviation& d) { return static_cast<double>(d.group); });
   }
-}
-
-/// Sets of members (batches, pieces) that no group joins.
-template <class Member>
-std::vector<std::set<Member>> joined(const std::map<int, std::set<Member>>& of_groups) {
-  std::vector<std::set<Member>> sets;
-  for (const auto& entry : of_groups) {
-    const std::set<Member>& own = entry.second;
-    std::set<Member> all = own;
-    std::erase_if(sets, [&](const std::set<Member>& other) {
-      const bool meets = std::ranges::any_of(other, [&](const Member& each) { return own.contains(each); });
-      if (meets) all.insert(other.begin(), other.end());
-      return meets;
-    });
-    sets.push_back(std::move(all));
-  }
-  return sets;
 }
 
 /// How many differences between batches these groups determine.
