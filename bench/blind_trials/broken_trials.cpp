@@ -1,5 +1,6 @@
 #include "broken_trials.hpp"
 
+#include <array>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@ using tester::TestKind;
 
 constexpr int kBrokenDesigns = 2, kBrokenLayouts = 24;
 constexpr double kLeastRigid = 0.55;
-constexpr int kPooled = 6;  ///< specimens of a design
+constexpr std::array kBrokenMixtures = {0.0, 0.5, 0.75, 1.0};  ///< rigid fractions
+constexpr int kPooled = 4;                                     ///< specimens of a design
 
 }  // namespace
 
@@ -24,19 +26,19 @@ std::uint64_t seed_of_truth(const BlindTrial& trial) { return trial.truth_seed >
 
 std::uint64_t broken_design(const BlindTrial& trial) { return seed_of_truth(trial) % kBrokenDesigns; }
 
-std::vector<lab::Experiment> broken_layouts(const BlindTrial& trial, tester::Fidelity fidelity) {
+std::vector<lab::Experiment> broken_designs(const BlindTrial& trial, tester::Fidelity fidelity) {
   RandomStream random(broken_design(trial), "blind trials/broken layouts");
   std::vector<lab::Experiment> experiments;
   std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(3 * kBrokenLayouts, random);
   std::erase_if(patterns, [](const pattern::Pattern& each) { return each.rigid_fraction() < kLeastRigid; });
   patterns.resize(kBrokenLayouts);
+  const auto add = [&](const pattern::Design& design, TestKind test) {
+    experiments.push_back(
+        {.design = design, .test = test, .conditions = {}, .fidelity = fidelity, .specimens = kPooled});
+  };
   for (const pattern::Pattern& each : patterns)
-    for (const TestKind test : {TestKind::modulus, TestKind::toughness})
-      experiments.push_back({.design = pattern::Design(each),
-                             .test = test,
-                             .conditions = {},
-                             .fidelity = fidelity,
-                             .specimens = kPooled});
+    for (const TestKind test : {TestKind::modulus, TestKind::toughness}) add(each, test);
+  for (const double rigid_fraction : kBrokenMixtures) add(pattern::Mixture{rigid_fraction}, TestKind::toughness);
   return experiments;
 }
 

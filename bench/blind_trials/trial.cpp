@@ -374,7 +374,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
   if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
   if (trial.kind == "loops") return unloaded_coupons(options.fidelity);
   if (is_tabulated(trial)) return tabulated_moduli(trial, options.fidelity);
-  if (is_broken(trial)) return broken_layouts(trial, options.fidelity);
+  if (is_broken(trial)) return broken_designs(trial, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);

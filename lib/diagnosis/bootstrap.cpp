@@ -63,7 +63,8 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
     std::string name = row.kind == RowKind::constant ? "constants"
                        : row.group < 0               ? "history"
                                                      : observations.groups[row.group].material();
-    if (!of_coupons && of_own_scatter) name = "moduli of " + name;
+    if (row.test == tester::TestKind::modulus && of_own_scatter) name = "moduli of " + name;
+    if (row.test == tester::TestKind::toughness && row.group >= 0) name = "notched homogeneous specimens";
     parts.back() = further.emplace(name, kTests + further.size()).first->second;
   }
   return parts;

@@ -68,9 +68,11 @@ Observations observations_of(const Observations& all, const std::vector<Eigen::I
     if (!own.rows.isZero()) part.batch_offsets.push_back(std::move(own));
   }
   part.values = all.values(rows);
+  part.crack_scatter = all.crack_scatter;
   part.discretisation_shared.resize(0, 0);
   if (all.fracture_change.size() > 0) part.fracture_change = all.fracture_change(rows, Eigen::all);
   part.levels.resize(0, 0);
+  if (all.bulk_constants.size() > 0) part.bulk_constants = all.bulk_constants(rows, Eigen::all);
   if (all.emulator_variance.size() > 0) part.emulator_variance = all.emulator_variance(rows);
   if (all.emulator_shared.size() > 0) part.emulator_shared = all.emulator_shared(rows, Eigen::all);
   return part;

@@ -120,14 +120,25 @@ void add_if_varying(std::vector<ContrastDirection>& directions, const std::strin
   directions.push_back({name, view, values / length});
 }
 
-/// Rows of one feature, by test.
-std::vector<int> rows_of(const Observations& observations, Feature feature, tester::TestKind test) {
+/// Rows of one feature, by test: of notched specimens `homogeneous` or layouts, of others both.
+std::vector<int> rows_of(const Observations& observations, Feature feature, tester::TestKind test,
+                         bool homogeneous = false) {
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
     const DataRow& row = observations.rows[i];
-    if (row.kind == RowKind::mean && row.feature == feature && row.test == test) rows.push_back(i);
+    if (row.kind != RowKind::mean || row.feature != feature || row.test != test) continue;
+    if (is_notched_bulk(observations.group_of(i)) == homogeneous) rows.push_back(i);
   }
   return rows;
+}
+
+/// The mean over these rows; nothing without any.
+void add_whole(std::vector<ContrastDirection>& directions, const std::string& name, const ContrastView& view,
+               const Observations& observations, const std::vector<int>& rows) {
+  if (rows.empty()) return;
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(observations.size());
+  for (const int row : rows) whole[row] = 1.0 / std::sqrt(static_cast<double>(rows.size()));
+  directions.push_back({name, view, whole});
 }
 
 using Kinds = std::set<std::pair<Feature, tester::TestKind>>;
@@ -198,11 +209,11 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
     const std::string whole_name = name_of(feature, test, kinds);
     const std::string prefix = kinds.size() > 1 ? whole_name + " against " : "";
     // One feature against the others: how far all specimens are off in it alone.
-    if (kinds.size() > 1) {
-      Eigen::VectorXd whole = Eigen::VectorXd::Zero(observations.size());
-      for (const int row : rows) whole[row] = 1.0 / std::sqrt(static_cast<double>(rows.size()));
-      directions.push_back({whole_name, {feature, test, ""}, whole});
-    }
+    if (kinds.size() > 1) add_whole(directions, whole_name, {feature, test, ""}, observations, rows);
+    if (test == tester::TestKind::toughness)
+      add_whole(directions, whole_name + " of homogeneous specimens", {feature, test, ""}, observations,
+                rows_of(observations, feature, test, true));
+    if (rows.empty()) continue;
     if (std::find(kDescribed.begin(), kDescribed.end(), feature) == kDescribed.end()) continue;
     Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
     for (const int row : rows) level[row] = predicted[row];
@@ -227,6 +238,12 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
           {fmt::format("E of the {} material in layouts against that of {} specimens", material, material),
            {row.feature, row.test, "", row.material},
            Eigen::VectorXd::Unit(observations.size(), i)});
+      continue;
+    }
+    if (row.kind == RowKind::scatter) {
+      directions.push_back({fmt::format("scatter of {} between replicates", in_words(row.feature)),
+                            {row.feature, row.test, ""},
+                            Eigen::VectorXd::Unit(observations.size(), i)});
       continue;
     }
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),

@@ -6,6 +6,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
+#include "diagnosis/crack_scatter.hpp"
 #include "diagnosis/planned_runs.hpp"
 #include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
@@ -63,15 +64,49 @@ Eigen::VectorXd fracture_change(const Observations& observations, const std::vec
   return change;
 }
 
+/// Observations that know what these layouts show of the discretisation error, and how much cracks scatter.
+void take_refined(Observations& observations, const std::vector<RefinedLayout>& layouts, const FractureSurface& surface,
+                  const DiagnosisSettings& settings) {
+  if (layouts.empty()) return;
+  const Procedure& procedure = settings.procedure;
+  observations.fracture_discretisation =
+      at_own_constants(settings.fracture_discretisation, layouts, procedure.emulator);
+  if (const auto scatter = crack_scatter(observations, layouts, surface, procedure.noise))
+    put_crack_scatter(observations, *scatter);
+  observations.fracture_change = fracture_change(observations, layouts);
+}
+
 /// What the runs teach.
-std::shared_ptr<const FractureSurface> learnt_surface(const Data& data, const Basis& basis,
+std::shared_ptr<const FractureSurface> learnt_surface(const Observations& observations, const std::vector<int>& groups,
+                                                      const std::vector<FractureRun>& runs, const Basis& basis,
                                                       const EmulatorRules& rules) {
-  return std::make_shared<const FractureSurface>(data.observations, data.fracture_groups, data.runs,
-                                                 basis.centre.toughness, rules);
+  return std::make_shared<const FractureSurface>(observations, groups, runs, basis.centre.toughness, rules);
+}
+
+/// What notched homogeneous specimens show if one of their constants differs from that of layouts as is usual: columns
+/// by constant. Without layouts theirs are the constants that are sought.
+Eigen::MatrixXd bulk_constants(const Observations& observations, const FractureSurface& surface,
+                               const material::ParameterSet& at) {
+  const std::vector<SurfaceRow>& rows = surface.rows();
+  if (std::ranges::all_of(rows, &SurfaceRow::is_bulk) || std::ranges::none_of(rows, &SurfaceRow::is_bulk)) return {};
+  const auto count = static_cast<Eigen::Index>(sysid::kSearchedEta.size());
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(observations.size(), count);
+  const Eigen::VectorXd plain = surface.predict(at);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    material::ToughnessVector eta = to_vector(at.toughness);
+    eta[sysid::kSearchedEta[c]] *= std::exp(observations.constant_sd);
+    material::ParameterSet moved = at;
+    moved.toughness = material::toughness_from_vector(eta);
+    const Eigen::VectorXd change = surface.predict(moved) - plain;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k].is_bulk) directions(rows[k].row, c) = change[static_cast<Eigen::Index>(k)];
+  }
+  return directions;
 }
 
 /// Observations that know the error of the surface at these parameters.
 void take_emulator_error(Observations& observations, const FractureSurface& surface, const material::ParameterSet& at) {
+  observations.bulk_constants = bulk_constants(observations, surface, at);
   const ErrorOfMean error = surface.error_of_mean(at);
   observations.emulator_variance = Eigen::VectorXd::Zero(observations.size());
   observations.emulator_shared = Eigen::MatrixXd::Zero(observations.size(), error.shared.cols());
@@ -147,25 +182,23 @@ Data data_of(const std::vector<measurement::SpecimenRecord>& specimens, const Di
   centre.toughness = search.best;
   if (has_fractures && settings.fractures) centre.toughness = settings.fractures->centre.value_or(centre.toughness);
   const Basis basis = basis_for(observations, centre, settings.ranges, procedure.constants);
-  Data data{observations,
-            fractures,
-            fracture_groups(observations).groups,
-            {},
-            FeatureModel(observations, basis, settings.fidelity),
-            {}};
+  const std::vector<int> groups = fracture_groups(observations).groups;
+  std::vector<FractureRun> runs;
+  std::shared_ptr<const FractureSurface> surface;
   if (has_fractures) {
     const std::vector<RefinedLayout> refined =
         fractures ? refined_around(*fractures, centre, settings) : settings.fractures->refined;
-    if (!refined.empty()) {
-      data.observations.fracture_discretisation =
-          at_own_constants(settings.fracture_discretisation, refined, procedure.emulator);
-      data.observations.fracture_change = fracture_change(data.observations, refined);
-    }
-    data.runs = fractures ? runs_around(*fractures, std::move(search.runs), basis, settings) : settings.fractures->runs;
-    const auto surface = learnt_surface(data, basis, procedure.emulator);
-    data.model = data.model.with_surface(surface);
-    take_emulator_error(data.observations, *surface, basis.centre);
+    runs = fractures ? runs_around(*fractures, std::move(search.runs), basis, settings) : settings.fractures->runs;
+    surface = learnt_surface(observations, groups, runs, basis, procedure.emulator);
+    take_refined(observations, refined, *surface, settings);
+    take_emulator_error(observations, *surface, basis.centre);
   }
+  Data data{observations,
+            fractures,
+            groups,
+            std::move(runs),
+            FeatureModel(observations, basis, settings.fidelity, surface),
+            {}};
   data.effects = acting_effects(data.model, data.observations, settings);
   return data;
 }
@@ -181,7 +214,8 @@ LearntData learnt_at(const Data& data, const std::vector<material::ParameterSet>
     learnt.data.runs.push_back(std::move(run));
   }
   if (learnt.data.runs.size() > data.runs.size())
-    learnt.data.model = data.model.with_surface(learnt_surface(learnt.data, data.model.basis(), rules));
+    learnt.data.model = data.model.with_surface(
+        learnt_surface(learnt.data.observations, data.fracture_groups, learnt.data.runs, data.model.basis(), rules));
   take_emulator_error(learnt.data.observations, *learnt.data.model.surface(), sets.front());
   return learnt;
 }

@@ -32,7 +32,9 @@ RowsOf rows_of(const Observations& observations, std::size_t part) {
   const DataRow& row = observations.rows[found - parts.begin()];
   if (row.kind == RowKind::constant) return {RowsOf::Kind::constants};
   if (row.test == tester::TestKind::modulus) return {RowsOf::Kind::moduli};
-  if (row.test == tester::TestKind::toughness) return {RowsOf::Kind::notched};
+  if (row.test == tester::TestKind::toughness)
+    return {RowsOf::Kind::notched,
+            row.group >= 0 && is_notched_bulk(observations.groups[row.group]) ? "homogeneous" : ""};
   return {RowsOf::Kind::coupons, row.group < 0 ? "" : observations.groups[row.group].material()};
 }
 

@@ -56,7 +56,8 @@ FractureSurface::FractureSurface(const Observations& observations, const std::ve
     const DataRow& row = observations.rows[i];
     if (row.kind != RowKind::mean || row.test != tester::TestKind::toughness) continue;
     const auto at = std::ranges::find(groups, row.group);
-    rows_.push_back({i, static_cast<int>(at - groups.begin()), row.feature});
+    rows_.push_back(
+        {i, static_cast<int>(at - groups.begin()), row.feature, is_notched_bulk(observations.groups[row.group])});
   }
   learn();
 }
@@ -182,7 +183,13 @@ std::vector<int> FractureSurface::base_runs() const {
 }
 
 FractureSurface::Learnt FractureSurface::learn_columns(const Eigen::MatrixXd& values) const {
-  Learnt learnt{{}, values.colwise().mean(), {}, {}, Eigen::VectorXd(values.cols()), Eigen::VectorXd(values.cols())};
+  Learnt learnt{.kernel = {},
+                .mean = values.colwise().mean(),
+                .weights = {},
+                .factor = {},
+                .left_out = {},
+                .run_variance = Eigen::VectorXd(values.cols()),
+                .variance_scale = Eigen::VectorXd(values.cols())};
   Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
   const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
   centred /= spread;
@@ -194,17 +201,13 @@ FractureSurface::Learnt FractureSurface::learn_columns(const Eigen::MatrixXd& va
   learnt.factor.compute(covariance_matrix(learnt.kernel, all));
   const Eigen::MatrixXd inverse = learnt.factor.solve(
       Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
-  const Eigen::MatrixXd weights = inverse * centred;
+  learnt.weights = spread * (inverse * centred);
+  learnt.left_out = inverse.diagonal().cwiseInverse().asDiagonal() * learnt.weights;
   const std::vector<int> near = half_nearest_to_the_centre();
   double expected = 0.0;  // of a run that is left out
   for (const int k : near) expected += 1.0 / inverse(k, k) / static_cast<double>(near.size());
-  for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    double sum = 0.0;
-    for (const int k : near) sum += square(weights(k, c) / inverse(k, k));
-    learnt.run_variance[c] = square(spread) * sum / static_cast<double>(near.size());
-    learnt.variance_scale[c] = learnt.run_variance[c] / expected;
-  }
-  learnt.weights = spread * weights;
+  learnt.run_variance = learnt.left_out(near, Eigen::all).cwiseAbs2().colwise().mean();
+  learnt.variance_scale = learnt.run_variance / expected;
   return learnt;
 }
 
@@ -239,12 +242,16 @@ void FractureSurface::learn() {
       if (std::isnan(values(k, static_cast<Eigen::Index>(r))))
         values(k, static_cast<Eigen::Index>(r)) = known > 0 ? sum / known : 0.0;
   }
-  std::map<Feature, std::vector<int>> by_feature;
-  for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
-  std::vector<std::vector<int>> kinds;
-  for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
+  // What layouts have in common homogeneous specimens have not.
+  std::map<std::pair<Feature, bool>, std::vector<int>> by_kind;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    by_kind[{rows_[r].feature, rows_[r].is_bulk}].push_back(static_cast<int>(r));
+  const std::vector<std::pair<std::pair<Feature, bool>, std::vector<int>>> kinds(by_kind.begin(), by_kind.end());
   learnt_.assign(kinds.size(), {});
-  parallel_for(kinds.size(), [&](int k) { learnt_[k] = learn_feature(kinds[k], values(Eigen::all, kinds[k])); });
+  parallel_for(kinds.size(), [&](int k) {
+    const std::vector<int>& rows = kinds[k].second;
+    learnt_[k] = learn_feature(rows, values(Eigen::all, rows));
+  });
   run_variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   for (const LearntFeature& learnt : learnt_) {
     run_variance_(learnt.rows) = learnt.rest.run_variance;
@@ -336,6 +343,13 @@ ErrorOfMean FractureSurface::error_of_mean(const material::ParameterSet& set) co
           std::sqrt(variance_of_mean(learnt.components[k], at)[0]) * learnt.basis.col(k);
   }
   return error;
+}
+
+Eigen::MatrixXd FractureSurface::own_errors(Feature feature) const {
+  for (const LearntFeature& learnt : learnt_)
+    if (const SurfaceRow& first = rows_[learnt.rows.front()]; first.feature == feature && !first.is_bulk)
+      return learnt.rest.left_out;
+  return Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(runs_.size()), 0);
 }
 
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {

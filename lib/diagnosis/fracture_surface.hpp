@@ -22,6 +22,7 @@ struct SurfaceRow {
   int row = 0;    ///< index in Observations::rows
   int group = 0;  ///< index in FractureTests::groups()
   Feature feature = Feature::log_toughness;
+  bool is_bulk = false;  ///< of a notched homogeneous specimen
 };
 
 /// Covariance of the changes by one effect, between two points given by its strengths (-1 to 1; further parameters
@@ -49,6 +50,10 @@ class FractureSurface {
   /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre. A run is one
   /// specimen's crack: its own scatter is in it.
   const Eigen::VectorXd& run_variance() const { return run_variance_; }
+  const std::vector<FractureRun>& runs() const { return runs_; }
+  /// How far runs() that are left out lie off in the rows of a feature of layouts, but for what these have in common:
+  /// runs x rows.
+  Eigen::MatrixXd own_errors(Feature feature) const;
   /// Error of the expectation over specimens that predict() gives at a parameter set, per row: the posterior one of the
   /// processes, scaled so that errors at runs that were left out are what they expect. Small where many runs are near.
   ErrorOfMean error_of_mean(const material::ParameterSet& set) const;
@@ -68,8 +73,9 @@ class FractureSurface {
     Eigen::RowVectorXd mean;
     Eigen::MatrixXd weights;             ///< runs x columns
     Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the runs, in units of the columns' spread
-    Eigen::VectorXd run_variance;        ///< mean square error at runs that were left out, per column
-    Eigen::VectorXd variance_scale;      ///< of that process to these errors, per column
+    Eigen::MatrixXd left_out;            ///< runs x columns: error at a run that is left out
+    Eigen::VectorXd run_variance;        ///< its mean square over runs near the centre, per column
+    Eigen::VectorXd variance_scale;      ///< of the process to these errors, per column
   };
   struct LearntFeature {
     std::vector<int> rows;  ///< indices into rows_

@@ -31,12 +31,13 @@ FractureRun run_of(const material::ParameterSet& parameters, const std::vector<s
   return run;
 }
 
-/// Indices of so many upright designs, from the least rigid to the most.
+/// Indices of so many upright layouts, from the least rigid to the most.
 std::vector<std::size_t> spread_over_rigid_fraction(const std::vector<measurement::Replicates>& measured, int most) {
   std::vector<std::size_t> upright;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const auto same = [&](std::size_t other) { return measured[other].design == measured[i].design; };
-    if (measured[i].conditions.orientation_deg == 0.0 && std::ranges::none_of(upright, same)) upright.push_back(i);
+    const bool is_upright_layout = measured[i].design.layout() && measured[i].conditions.orientation_deg == 0.0;
+    if (is_upright_layout && std::ranges::none_of(upright, same)) upright.push_back(i);
   }
   std::ranges::stable_sort(upright, {}, [&](std::size_t i) { return measured[i].design.rigid_fraction(); });
   const auto count = static_cast<std::size_t>(std::max(most, 2));

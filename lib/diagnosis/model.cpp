@@ -227,13 +227,15 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   }
 }
 
-/// Change of a feature by the machine from one batch to the next; no effect depends on single batches or on the order
-/// inside a batch.
+/// Change of a feature by the machine from one batch to the next, and how much replicates scatter; no effect depends on
+/// single batches or on the order inside a batch.
 void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   for (int i = 0; i < observations_.size(); ++i) {
     const DataRow& row = observations_.rows[i];
     if (row.kind == RowKind::mean || row.kind == RowKind::constant) continue;
     rows[i] = 0.0;
+    if (row.kind == RowKind::scatter)
+      rows[i] = observations_.crack_scatter->log_sd(material::extension_value(set.extensions, kStrengthScatter));
     if (row.kind != RowKind::batch || set.extensions.empty()) continue;
     if (row.test == TestKind::toughness && surface_ != nullptr)
       rows[i] = value_of(surface_->batch_step(set), row.feature).value_or(0.0);

@@ -78,9 +78,8 @@ bool is_included(const SpecimenRecord& specimen) {
   if (!specimen.valid) return false;
   switch (specimen.test) {
     case TestKind::modulus:
-      return true;
     case TestKind::toughness:
-      return specimen.design.layout() != nullptr;
+      return true;
     case TestKind::tensile:
       return specimen.design.mixture() != nullptr;
   }
@@ -192,13 +191,6 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
   return offsets;
 }
 
-/// Correlations of one covariance, variances of another. Few replicates determine how much one material scatters, not
-/// how its features correlate: combinations of features that seem not to scatter would count for everything.
-Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
-  const Eigen::VectorXd scale = (own.diagonal().array() / all.diagonal().array()).sqrt();
-  return scale.asDiagonal() * all * scale.asDiagonal();
-}
-
 /// Where pieces return in other groups, slopes of history weigh what a piece keeps as often as there are pieces, the
 /// rest as often as there are tests; so many pieces are behind their scatter. `history`: the last rows.
 void put_weights_of_pieces(Observations& observations, const std::vector<HistoryRow>& history) {
@@ -221,52 +213,38 @@ int number_of(const std::string& name, const std::vector<std::string>& names) {
   return static_cast<int>(std::ranges::find(names, name) - names.begin());
 }
 
+/// Homogeneous and without a notch: it has the constants of its material's bulk.
+bool is_bulk(const Observation& group) {
+  return group.design.mixture() != nullptr && group.test != TestKind::toughness;
+}
+
+/// Where the cracks of homogeneous specimens go does not depend on the mesh as that of layouts does, nor on the place
+/// between these: what one has in common with another is its own.
+double discretisation_covariance(const FractureDiscretisation& error, const DataRow& a, const pattern::Design& of_a,
+                                 const DataRow& b, const pattern::Design& of_b) {
+  if ((of_a.layout() == nullptr) != (of_b.layout() == nullptr)) return 0.0;
+  const auto position = [](const pattern::Design& design) { return design.layout() ? rigid_position(design) : 0.0; };
+  return error.covariance(a.feature, b.feature, position(of_a), position(of_b), of_a == of_b);
+}
+
 void number_machines_and_materials(Observations& observations) {
   std::set<std::string> machines, materials;
   for (const Observation& group : observations.groups) {
     machines.insert(group.surroundings.machine);
-    if (group.design.mixture()) materials.insert(group.material());
+    if (is_bulk(group)) materials.insert(group.material());
   }
   observations.machines.assign(machines.begin(), machines.end());
   observations.materials.assign(materials.begin(), materials.end());
   for (Observation& group : observations.groups) {
     group.machine = number_of(group.surroundings.machine, observations.machines);
-    if (group.design.mixture()) group.material_number = number_of(group.material(), observations.materials);
+    if (is_bulk(group)) group.material_number = number_of(group.material(), observations.materials);
   }
 }
 
 /// Whether E of the base materials is told by layouts and by homogeneous specimens.
 bool has_constants_of_both(const std::vector<Observation>& groups) {
   const auto any = [&](auto is) { return std::ranges::any_of(groups, is); };
-  return any([](const Observation& g) { return g.test == TestKind::modulus && g.design.layout(); }) &&
-         any([](const Observation& g) { return g.design.mixture() != nullptr; });
-}
-
-/// Scatter of every test, and of each material's coupons where their replicates determine it; of its moduli where
-/// materials scatter differently.
-void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups,
-                 const NoiseRules& rules) {
-  for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t), rules);
-  const bool moduli_by_material = materials_scatter_differently(groups, rules);
-  std::map<std::pair<TestKind, std::string>, std::size_t> own;
-  for (DataRow& row : observations.rows) {
-    row.scatter = static_cast<std::size_t>(row.test);
-    if (row.group < 0) continue;
-    const Observation& group = observations.groups[row.group];
-    const bool is_own_modulus = row.test == TestKind::modulus && group.design.mixture() && moduli_by_material;
-    if (row.test != TestKind::tensile && !is_own_modulus) continue;
-    const std::string material = group.material();
-    const auto [place, unknown] = own.emplace(std::pair(row.test, material), row.scatter);
-    if (unknown) {
-      ReplicateScatter scatter = pooled_scatter(groups, row.test, rules, material);
-      if (std::min(scatter.dof, scatter.piece_dof) >= rules.own_dof) {
-        place->second = observations.scatter.size();
-        scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
-        observations.scatter.push_back(std::move(scatter));
-      }
-    }
-    row.scatter = place->second;
-  }
+  return any([](const Observation& g) { return g.test == TestKind::modulus && g.design.layout(); }) && any(is_bulk);
 }
 
 }  // namespace
@@ -281,6 +259,14 @@ Whitener Whitener::independent(const Eigen::VectorXd& standard_deviations) {
   Whitener whitener;
   whitener.scale_ = standard_deviations.cwiseInverse();
   return whitener;
+}
+
+double CrackScatter::log_sd(double strength_scatter) const {
+  return 0.5 * std::log(of_specimens + of_cracks + growth * strength_scatter * strength_scatter);
+}
+
+bool is_notched_bulk(const Observation& group) {
+  return group.design.mixture() != nullptr && group.test == TestKind::toughness;
 }
 
 std::string Observation::material() const { return design.layout() ? "layout" : design.name(); }
@@ -312,19 +298,21 @@ RowCovariance Observations::row_covariance(int i, int j) const {
   if (a.kind == RowKind::mean && b.kind == RowKind::mean && a.group != b.group && a.scatter == b.scatter)
     covariance.scatter = piece_covariance(i, j);
   if (a.kind == RowKind::constant && i == j) covariance.fixed = constant_sd * constant_sd;
-  if (a.kind == RowKind::constant || b.kind == RowKind::constant) return covariance;
+  if (a.kind == RowKind::scatter && i == j) covariance.fixed = crack_scatter->error_variance;
+  const auto stands_alone = [](RowKind kind) { return kind == RowKind::constant || kind == RowKind::scatter; };
+  if (stands_alone(a.kind) || stands_alone(b.kind)) return covariance;
   if (a.test != b.test || a.kind != b.kind) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
   if (a.group == b.group && a.batch == b.batch)
     covariance.scatter =
         std::min(a.weight, b.weight) *
         scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
-  if (a.kind != RowKind::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) return covariance;
-  const bool same = group_of(i).design == group_of(j).design;
-  if (a.test == TestKind::modulus && same) covariance.fixed = discretisation_sd * discretisation_sd;
+  if (a.kind != RowKind::mean) return covariance;
+  const pattern::Design &of_a = group_of(i).design, &of_b = group_of(j).design;
+  if (a.test == TestKind::modulus && of_a.layout() && of_a == of_b)
+    covariance.fixed = discretisation_sd * discretisation_sd;
   if (a.test == TestKind::toughness)
-    covariance.fixed = fracture_discretisation.covariance(a.feature, b.feature, rigid_position(group_of(i).design),
-                                                          rigid_position(group_of(j).design), same);
+    covariance.fixed = discretisation_covariance(fracture_discretisation, a, of_a, b, of_b);
   return covariance;
 }
 
@@ -365,7 +353,8 @@ Eigen::VectorXd Observations::own_variances() const {
 
 Eigen::MatrixXd Observations::shared_directions() const {
   Eigen::MatrixXd directions(size(), 0);
-  for (const Eigen::MatrixXd* own : {&fracture_change, &emulator_shared, &discretisation_shared, &levels}) {
+  for (const Eigen::MatrixXd* own :
+       {&fracture_change, &emulator_shared, &bulk_constants, &discretisation_shared, &levels}) {
     if (own->rows() != size()) continue;
     directions.conservativeResize(Eigen::NoChange, directions.cols() + own->cols());
     directions.rightCols(own->cols()) = *own;

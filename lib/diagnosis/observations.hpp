@@ -41,12 +41,16 @@ struct Observation {
   std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
 
+/// A homogeneous specimen with a notch.
+bool is_notched_bulk(const Observation& group);
+
 /// Which statistic of the specimens a row is.
 enum class RowKind {
   mean,         ///< mean of a feature over a group's replicates
   batch,        ///< change of a feature per batch step between replicates of one group, over all groups
   batch_rest,   ///< how far one batch lies off that change, again between replicates of one group
   print_order,  ///< change per specimen printed, inside batches
+  scatter,      ///< log of the standard deviation of a feature between replicates of layouts
   constant,     ///< log of E of a base material in layouts over E of its homogeneous specimens, expected to be 0
 };
 
@@ -106,6 +110,19 @@ struct ReplicateScatter {
   double piece_share = 0.0;    ///< of the variance, what a piece keeps from one group to another that it is also in
 };
 
+/// The effect that makes replicates of layouts scatter more in toughness.
+inline constexpr std::string_view kStrengthScatter = "strength_scatter";
+
+/// Variance of log T between replicates of layouts: of their cracks, which the simulator has too, and of what scales
+/// all stresses of a specimen (its thickness, its ink), which shows in the slopes before anything breaks.
+struct CrackScatter {
+  double of_cracks = 0.0;
+  double of_specimens = 0.0;
+  double growth = 0.0;          ///< of_cracks grows by so much per square of the size of `strength_scatter`
+  double error_variance = 0.0;  ///< of log_sd() against the measured one
+  double log_sd(double strength_scatter) const;
+};
+
 /// Factors on the replicate variances, in the order of Observations::scatter.
 using ScatterFactors = std::vector<double>;
 
@@ -137,7 +154,10 @@ struct Observations {
                                                    ///< calibration; the discretisation error is so much, more or less
   Eigen::MatrixXd discretisation_shared;           ///< rows x directions: discretisation error along each, one
                                                    ///< standard deviation; may be empty
+  Eigen::MatrixXd bulk_constants;                  ///< rows x constants: of notched homogeneous specimens beside
+                                                   ///< layouts, whose constants are effective ones, the same
   Eigen::MatrixXd levels;                          ///< rows x free levels of factors (factors.hpp), the same
+  std::optional<CrackScatter> crack_scatter;       ///< where a row of RowKind::scatter says how much they scatter
   Eigen::VectorXd emulator_variance;               ///< per row; empty: none (emulator_covariance())
   Eigen::MatrixXd emulator_shared;                 ///< rows x directions: errors that rows of a feature have in common
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
@@ -176,8 +196,7 @@ struct Observations {
 
 /// Groups the valid specimens: moduli and fracture tests of layouts; of homogeneous ones moduli, and coupons pulled
 /// with a curve. Where moduli of both kinds are there, a row for each base material says that their constants are
-/// alike, and how much voxels may differ from the bulk (thesis 3.2.4). Notched homogeneous specimens are left out:
-/// effective moduli of fracture tests are no bulk constants.
+/// alike, and how much voxels may differ from the bulk (thesis 3.2.4).
 Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_discretisation_sd,
                      const FractureDiscretisation& fracture, const Procedure& procedure);
 

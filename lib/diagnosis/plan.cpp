@@ -55,7 +55,7 @@ void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& se
       if (auto curve =
               tester::test_tensile({specimen.design, settings.start, specimen.conditions, settings.fidelity}, history))
         specimen.curve = *std::move(curve);
-    } else if (specimen.design.layout()) {
+    } else {
       measurement::Replicates one;
       one.design = specimen.design;
       one.conditions = specimen.conditions;

@@ -32,6 +32,7 @@ constexpr void NoiseRules::fields(auto& field, auto& m) {
   field("dof_per_batch", m.dof_per_batch);
   field("fewest_for_history", m.fewest_for_history);
   field("constant_sd", m.constant_sd);
+  field("crack_scatter_sd", m.crack_scatter_sd);
   field("piece_sd", m.piece_sd);
   field("unlike_scatter", m.unlike_scatter);
   field("assumed_worth", m.assumed_worth);

@@ -244,6 +244,13 @@ bool agree_too_well(const std::vector<Deviation>& deviations, const Eigen::Matri
   return true;
 }
 
+/// Correlations of one covariance, variances of another. Few replicates determine how much one material scatters, not
+/// how its features correlate: combinations of features that seem not to scatter would count for everything.
+Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
+  const Eigen::VectorXd scale = (own.diagonal().array() / all.diagonal().array()).sqrt();
+  return scale.asDiagonal() * all * scale.asDiagonal();
+}
+
 }  // namespace
 
 Eigen::MatrixXd covariance_of(const AssumedScatter& scatter, const NoiseRules& rules) {
@@ -380,6 +387,45 @@ int disconnected_batches(const std::vector<std::vector<Measured>>& groups) {
     for (const Measured& each : groups[g])
       if (!each.specimen->batch.empty()) batches_of_group[static_cast<int>(g)].insert(each.batch_step);
   return static_cast<int>(joined(batches_of_group).size());
+}
+
+void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups,
+                 const NoiseRules& rules) {
+  std::vector<std::vector<Measured>> notched_layouts, notched_bulk;
+  for (const auto& group : groups) {
+    const measurement::SpecimenRecord& first = *group.front().specimen;
+    if (first.test == tester::TestKind::toughness)
+      (first.design.layout() ? notched_layouts : notched_bulk).push_back(group);
+  }
+  const bool both_notched = !notched_layouts.empty() && !notched_bulk.empty();
+  for (int t = 0; t < 3; ++t) {
+    const auto test = static_cast<tester::TestKind>(t);
+    observations.scatter[t] =
+        pooled_scatter(both_notched && test == tester::TestKind::toughness ? notched_layouts : groups, test, rules);
+  }
+  const std::size_t of_notched_bulk = observations.scatter.size();
+  if (both_notched) observations.scatter.push_back(pooled_scatter(notched_bulk, tester::TestKind::toughness, rules));
+  const bool moduli_by_material = materials_scatter_differently(groups, rules);
+  std::map<std::pair<tester::TestKind, std::string>, std::size_t> own;
+  for (DataRow& row : observations.rows) {
+    row.scatter = static_cast<std::size_t>(row.test);
+    if (row.group < 0) continue;
+    const Observation& group = observations.groups[row.group];
+    if (both_notched && is_notched_bulk(group)) row.scatter = of_notched_bulk;
+    const bool is_own_modulus = row.test == tester::TestKind::modulus && group.design.mixture() && moduli_by_material;
+    if (row.test != tester::TestKind::tensile && !is_own_modulus) continue;
+    const std::string material = group.material();
+    const auto [place, unknown] = own.emplace(std::pair(row.test, material), row.scatter);
+    if (unknown) {
+      ReplicateScatter scatter = pooled_scatter(groups, row.test, rules, material);
+      if (std::min(scatter.dof, scatter.piece_dof) >= rules.own_dof) {
+        place->second = observations.scatter.size();
+        scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
+        observations.scatter.push_back(std::move(scatter));
+      }
+    }
+    row.scatter = place->second;
+  }
 }
 
 }  // namespace nacre::diagnosis

@@ -44,6 +44,11 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
 /// Whether the homogeneous materials of modulus tests scatter differently beyond chance (Bartlett 1937).
 bool materials_scatter_differently(const std::vector<std::vector<Measured>>& groups, const NoiseRules& rules);
 
+/// Scatter of every test, and of each material's coupons where their replicates determine it; of its moduli where
+/// materials scatter differently. Beside layouts notched homogeneous specimens, whose cracks have one way to go,
+/// scatter for themselves.
+void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups, const NoiseRules& rules);
+
 /// 95 % quantile of Student's t over the normal one (Abramowitz and Stegun 26.7.5; within 0.3 % from 2 degrees of
 /// freedom on). Without replicates: a little.
 double student(int dof);

@@ -386,22 +386,11 @@ std::string in_words(const RowsOf& rows) {
     case RowsOf::Kind::moduli:
       return "moduli";
     case RowsOf::Kind::notched:
-      return "notched specimens";
+      return rows.material.empty() ? "notched specimens" : fmt::format("notched {} specimens", rows.material);
     case RowsOf::Kind::coupons:
       break;
   }
   return rows.material.empty() ? "coupons" : rows.material + " coupons";
-}
-
-std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens) {
-  const auto count = std::ranges::count_if(specimens, [](const measurement::SpecimenRecord& specimen) {
-    return specimen.valid && specimen.test == tester::TestKind::toughness && specimen.design.mixture() != nullptr;
-  });
-  if (count == 0) return "";
-  return fmt::format(
-      " Left out: {} of homogeneous material (the moduli of fracture tests are effective ones, no constants of the "
-      "bulk).",
-      counted(count, "notched specimen"));
 }
 
 std::string in_words(const ConditionTrend& trend) {

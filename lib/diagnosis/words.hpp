@@ -22,9 +22,6 @@ std::string in_words(const CommonGround& ground);
 /// "soft coupons"; empty: no rows.
 std::string in_words(const RowsOf& rows);
 
-/// A sentence with a space in front on valid specimens that no row is made of (observe()); empty where there are none.
-std::string left_out_in_words(const std::vector<measurement::SpecimenRecord>& specimens);
-
 /// "modulus of mix:0.75 grows as the strain rate to the power 0.12 (90 % interval 0.10 to 0.14)"
 std::string in_words(const ConditionTrend& trend);
 /// What the data show by themselves, a sentence with a space in front; empty: no condition varies.

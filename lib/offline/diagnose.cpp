@@ -19,7 +19,7 @@ DiagnosedSet diagnose_set(const measurement::MeasurementSet& set, const diagnosi
   if (diagnosis.base_fit.modulus) expected.of_layouts.modulus = *diagnosis.base_fit.modulus;
   if (diagnosis.base_fit.coupon) expected.of_homogeneous.modulus = *diagnosis.base_fit.coupon;
   SpecimenUnitDoubts doubts = specimen_unit_doubts(set.specimens, expected, settings.fidelity);
-  diagnosis.summary += diagnosis::left_out_in_words(set.specimens) + doubts.caution;
+  diagnosis.summary += doubts.caution;
   diagnosed.unit_doubts = std::move(doubts.first);
   return diagnosed;
 }
