@@ -37,7 +37,9 @@ bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change
 
 bool is_other_constants(const material::Effect& effect, const Observations& observations) {
   return effect.form == "power_law" && std::ranges::all_of(observations.groups, [&](const Observation& group) {
-           return group.conditions.strain_rate_per_s == observations.groups.front().conditions.strain_rate_per_s;
+           const bool shows_time = group.pauses.has_pauses() || group.unloaded;
+           return !shows_time &&
+                  group.conditions.strain_rate_per_s == observations.groups.front().conditions.strain_rate_per_s;
          });
 }
 

@@ -25,7 +25,7 @@ bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change
                    std::span<const Eigen::Index> rows);
 
 /// Whether an effect is nothing but other constants of the phases on these specimens: a power of the rate where all
-/// were tested at one rate.
+/// were tested at one rate, and none was held or unloaded.
 bool is_other_constants(const material::Effect& effect, const Observations& observations);
 
 /// Whether no effect but those that moduli of layouts identify can be told here: there are moduli alone, and no

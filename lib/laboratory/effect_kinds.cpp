@@ -152,7 +152,7 @@ constexpr std::array kEffectKinds = {
     EffectKind{.name = "rate_prony",
                .unit = "1",
                .meaning = "overstress of each of two relaxation times, the longer a thousand times the shorter; moduli "
-                          "and elastic coupons",
+                          "and coupons",
                .minimum = 0.0,
                .maximum = 3.0,
                .drawn_minimum = 0.3,

@@ -2,18 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nacre::laboratory {
 namespace {
 
-/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch (of second
-/// Piola-Kirchhoff stress), stiffening chains and softening, in one dimension.
+/// What a power of the rate, or two relaxation times, leave of stresses that a coupon bore: the integral of their
+/// relaxation function over the past, in closed form for stresses that grew evenly over each step.
+class PastStresses {
+ public:
+  PastStresses(const Truth& truth, double rigid_fraction) : effects_(truth.effects) {
+    if (effects_.rate_exponent == 0.0) return;
+    constexpr double kUsualRate = 6.17e-4, kFirst = 0.0005, kLast = 0.0025;
+    Truth of_powers = truth;
+    of_powers.effects = {.rate_exponent = effects_.rate_exponent, .rate_exponent_ratio = effects_.rate_exponent_ratio};
+    const auto modulus = [&](double rate_per_s) {
+      return homogeneous_modulus(of_powers, rigid_fraction, {.strain_rate_per_s = rate_per_s});
+    };
+    exponent_ = std::log(modulus(10.0 * kUsualRate) / modulus(kUsualRate)) / std::log(10.0);
+    const double rest = 1.0 - exponent_, usual_s = 1.0 / kUsualRate;
+    factor_ = (kLast - kFirst) * usual_s / (std::pow(kLast * usual_s, rest) - std::pow(kFirst * usual_s, rest));
+  }
+  bool any() const { return exponent_ > 0.0 || effects_.two_overstresses > 0.0; }
+  /// A step that takes `dt_s`, to this stress.
+  void add(double stress_pa, double dt_s) {
+    steps_.push_back({now_s_, now_s_ + dt_s, stress_pa - last_pa_});
+    now_s_ += dt_s;
+    last_pa_ = stress_pa;
+  }
+  /// What is left of all.
+  double left_pa() const {
+    double sum = 0.0;
+    for (const Step& step : steps_)
+      if (step.change_pa != 0.0)
+        sum += step.change_pa * (integral(now_s_ - step.from_s) - integral(now_s_ - step.to_s)) /
+               (step.to_s - step.from_s);
+    return sum;
+  }
+
+ private:
+  struct Step {
+    double from_s, to_s, change_pa;
+  };
+  /// Of the relaxation function, up to this age.
+  double integral(double age_s) const {
+    if (exponent_ > 0.0) return factor_ * std::pow(age_s, 1.0 - exponent_);
+    const double shorter_s = effects_.shorter_relaxation_s, longer_s = kLongerRelaxation * shorter_s;
+    return age_s - effects_.two_overstresses *
+                       (shorter_s * std::expm1(-age_s / shorter_s) + longer_s * std::expm1(-age_s / longer_s));
+  }
+
+  HiddenEffects effects_;
+  double exponent_ = 0.0, factor_ = 1.0, now_s_ = 0.0, last_pa_ = 0.0;
+  std::vector<Step> steps_;
+};
+
+/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch and a memory (of
+/// second Piola-Kirchhoff stress), stiffening chains and softening, in one dimension.
 class Strand {
  public:
-  Strand(const Truth& truth, double rigid_fraction, const Making& making) : effects_(truth.effects) {
-    // The branch is integrated here, so that the relaxed modulus is wanted.
+  Strand(const Truth& truth, double rigid_fraction, const Making& making)
+      : effects_(truth.effects), past_(truth, rigid_fraction) {
+    // What relaxes is integrated here, so that the modulus without it is wanted.
     Truth relaxed = truth;
     relaxed.effects.rate_overstress = relaxed.effects.soft_overstress = 0.0;
+    relaxed.effects.rate_exponent = relaxed.effects.two_overstresses = 0.0;
     lame_ = homogeneous_lame(relaxed, rigid_fraction, making);
     const double rigid = std::max(0.0, 2.0 * rigid_fraction - 1.0), soft = std::max(0.0, 1.0 - 2.0 * rigid_fraction);
     if (effects_.rigid_yield_pa > 0.0 && rigid > 0.0) yield_pa_ = effects_.rigid_yield_pa / rigid;
@@ -29,6 +82,11 @@ class Strand {
 
   /// Nominal stress after a further step to `strain` within `dt_s`.
   double pull(double strain, double dt_s) {
+    advance(strain, dt_s);
+    return stress_pa();
+  }
+  /// A part of such a step.
+  void advance(double strain, double dt_s) {
     const double elastic = std::log1p(strain) - flow_;
     double kirchhoff = elastic_stress(elastic);
     if (std::abs(kirchhoff) > yield_pa_) {
@@ -46,13 +104,23 @@ class Strand {
     last_second_ = second;
     last_ = kirchhoff;
     last_log_ = std::log1p(strain);
+    last_strain_ = strain;
     integrity_ = std::min(integrity_, left());
-    return integrity_ * stretch * (second + branch_);
+    passed_s_ += dt_s;
   }
   /// Energy taken up, of that which parts it.
   double spent() const { return work_ / threshold_; }
 
  private:
+  /// Nominal stress at the end of a step.
+  double stress_pa() {
+    double second = last_second_;
+    if (past_.any()) {
+      past_.add(last_second_, std::exchange(passed_s_, 0.0));
+      second = past_.left_pa();
+    }
+    return integrity_ * (1.0 + last_strain_) * (second + branch_);
+  }
   /// Kirchhoff stress of the law at a logarithmic strain with no sideways stress.
   double elastic_stress(double log_strain) const {
     constexpr int kHalvings = 60;
@@ -79,9 +147,12 @@ class Strand {
   }
 
   HiddenEffects effects_;
+  PastStresses past_;
+  double passed_s_ = 0.0;  ///< since the last stress that the past holds
   material::Lame lame_;
   double yield_pa_ = 1e30, inverse_limit_ = 0.0, overstress_ = 0.0, relaxation_s_ = 1.0, threshold_ = 1e30;
-  double flow_ = 0.0, branch_ = 0.0, last_second_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
+  double flow_ = 0.0, branch_ = 0.0, last_second_ = 0.0, last_ = 0.0, last_strain_ = 0.0, last_log_ = 0.0, work_ = 0.0,
+         integrity_ = 1.0;
 };
 
 /// A strand on its way through a programme with pauses, which keeps what is recorded.
@@ -161,7 +232,7 @@ class PausedStrand {
   void pull_by(double way) {
     constexpr int kSubsteps = 20;
     const double from = recorded_.strain.back(), dt_s = std::abs(way) / kSubsteps / rate_per_s_;
-    for (int i = 1; i < kSubsteps; ++i) strand_.pull(from + way * i / kSubsteps, dt_s);
+    for (int i = 1; i < kSubsteps; ++i) strand_.advance(from + way * i / kSubsteps, dt_s);
     record(from + way, dt_s);
   }
 
@@ -190,7 +261,7 @@ double coupon_strain(const Truth& truth, double rigid_fraction, const Making& ma
   double strain = 0.0;
   while (strain < kMost && strand.spent() < share) {
     strain += kStep;
-    strand.pull(strain, kStep / making.strain_rate_per_s);
+    strand.advance(strain, kStep / making.strain_rate_per_s);
   }
   return strain;
 }
@@ -202,11 +273,10 @@ tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Maki
   tester::Curve curve{.strain = {strains.front()}, .stress_pa = {0.0}};
   for (std::size_t point = 1; point < strains.size(); ++point) {
     const double from = strains[point - 1], step = (strains[point] - from) / kSubsteps;
-    double stress_pa = 0.0;
-    for (int i = 1; i <= kSubsteps; ++i)
-      stress_pa = strand.pull(from + step * i, std::abs(step) / making.strain_rate_per_s);
+    const double dt_s = std::abs(step) / making.strain_rate_per_s;
+    for (int i = 1; i < kSubsteps; ++i) strand.advance(from + step * i, dt_s);
     curve.strain.push_back(strains[point]);
-    curve.stress_pa.push_back(stress_pa);
+    curve.stress_pa.push_back(strand.pull(strains[point], dt_s));
   }
   return curve;
 }

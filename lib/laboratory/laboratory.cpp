@@ -101,7 +101,8 @@ Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& exp
 /// Whether a coupon's curve is more than the closed form of its elastic law.
 bool hides_a_curve(const HiddenEffects& effects) {
   return effects.rigid_yield_pa > 0.0 || effects.soft_stiffening_limit > 0.0 || effects.rate_overstress > 0.0 ||
-         effects.soft_overstress > 0.0 || effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
+         effects.soft_overstress > 0.0 || effects.rate_exponent > 0.0 || effects.two_overstresses > 0.0 ||
+         effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
 }
 
 /// Strain between points of a curve along a programme.

@@ -19,6 +19,9 @@ struct ReplicateNoise {
   bool operator==(const ReplicateNoise&) const = default;
 };
 
+/// Of two relaxation times (two_overstresses) the longer over the shorter.
+inline constexpr double kLongerRelaxation = 1000.0;
+
 /// Strength of every effect that the laboratory can hide, in the units of `effect_kinds()`; 0 is no effect, exactly.
 struct HiddenEffects {
   double machine_compliance_per_pa = 0.0;

@@ -28,7 +28,9 @@ double PulledBar::pull(double strain, double dt_s) {
   sideways_ = now;
   history_ = trial;
   energy_ = response.failure_energy_j_per_m3;
-  return response.stress_pa(1, 1);
+  const double stress_pa = response.stress_pa(1, 1), area = history_.integrity * (1.0 + strain);
+  if (is_elastic_ || area == 0.0) return stress_pa;
+  return area * memory_.advance(stress_pa / area, dt_s);
 }
 
 }  // namespace nacre::material

@@ -42,6 +42,10 @@ Phases by_two_branches(Phases phases, const Extensions& extensions, Stiffening s
 
 }  // namespace
 
+double held_power(double n, double time_s) {
+  return std::exp(-n * std::log(kReferenceRatePerS * time_s)) * relaxation_over_chord(n);
+}
+
 Phases phases_at_rate(Phases phases, const Extensions& extensions, double strain_rate_per_s) {
   const double log_rate = std::log(strain_rate_per_s / kReferenceRatePerS);
   return by_two_branches(by_powers(phases, extensions, [&](double n) { return std::exp(n * log_rate); }), extensions,
@@ -49,8 +53,7 @@ Phases phases_at_rate(Phases phases, const Extensions& extensions, double strain
 }
 
 Phases phases_held(Phases phases, const Extensions& extensions, double time_s) {
-  const double log_time = std::log(kReferenceRatePerS * time_s);
-  const auto relaxed = [&](double n) { return std::exp(-n * log_time) * relaxation_over_chord(n); };
+  const auto relaxed = [&](double n) { return held_power(n, time_s); };
   return by_two_branches(by_powers(phases, extensions, relaxed), extensions,
                          [&](const LawExtensions& branch) { return held_stiffening(branch, time_s); });
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Extensions by which the stiffness of the phases goes with the strain rate, of elastic tests alone: every strain of
-// one pull has the same rate. A strain that is held after a step shows the same laws as functions of time.
+// Extensions by which the stiffness of the phases goes with the strain rate. A modulus is read where every strain has
+// the same rate; a strain that is held after a step shows the same laws as functions of time, and a coupon remembers
+// its whole way (relaxation_function.hpp). Layouts and notched specimens do not.
 //
 //   rate_power_law  E of each phase times (rate/6.17e-4)^n: a broad spectrum of relaxation times over some decades
 //                   (Ferry, Viscoelastic Properties of Polymers, 1980)
@@ -21,6 +22,10 @@ inline constexpr double kReferenceRatePerS = 6.17e-4;
 /// A pull at the rate kRelaxationStrain / t is as stiff as a held strain after the time t, where a material relaxes
 /// slowly: c(n) is kRelaxationStrain^n for n -> 0. The mean of log strain over the chord.
 inline constexpr double kRelaxationStrain = 1.375e-3;
+
+/// What a power of the rate with exponent `n` leaves of the modulus `time_s` after a step of strain, over the modulus
+/// at the reference rate: (6.17e-4 t)^-n c(n).
+double held_power(double n, double time_s);
 
 /// Phases at a strain rate: exponents n of the soft phase, and of interface and rigid phase by their ratios to it; of
 /// two branches overstress and time of the first, overstress of the second and its time over the first. Exactly the

@@ -3,12 +3,20 @@
 
 #include "base/result.hpp"
 #include "material/extended_law.hpp"
+#include "material/pulled_bar.hpp"
 #include "tester/simulation.hpp"
 
 namespace nacre::tester {
 
-/// The law of a homogeneous coupon at the rate of its conditions; it shrank freely before. Error: an unusable
-/// simulation, or a design that is not homogeneous.
-Result<material::ExtendedLaw> coupon_law(const Simulation& simulation);
+/// The law of a homogeneous coupon and how it forgets; it shrank freely before.
+struct CouponLaw {
+  material::ExtendedLaw law;
+  material::RelaxationFunction relaxation = {};
+  material::PulledBar bar() const { return material::PulledBar(law, relaxation); }
+};
+
+/// Of a coupon that is pulled at the rate of its conditions, with so long pauses. Error: an unusable simulation, or a
+/// design that is not homogeneous.
+Result<CouponLaw> coupon_law(const Simulation& simulation, double pauses_s = 0.0);
 
 }  // namespace nacre::tester

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "material/pulled_bar.hpp"
 #include "tester/coupon_law.hpp"
@@ -15,7 +16,7 @@ constexpr int kPauseSteps = 40;
 /// A coupon on its way through a programme.
 class PausedCoupon {
  public:
-  PausedCoupon(const material::ExtendedLaw& law, double rate_per_s) : bar_(law), rate_per_s_(rate_per_s) {}
+  PausedCoupon(const CouponLaw& law, double rate_per_s) : bar_(law.bar()), rate_per_s_(rate_per_s) {}
 
   double strain() const { return strain_; }
   double stress_pa() const { return stress_pa_; }
@@ -26,7 +27,7 @@ class PausedCoupon {
     for (int step = 1; step <= steps; ++step) advance(from + way * step / steps, std::abs(way) / steps / rate_per_s_);
   }
 
-  /// Holds the strain; a branch decays exactly over a step without strain.
+  /// Holds the strain; branches decay exactly over a step without strain.
   void hold(double time_s) { advance(strain_, time_s); }
 
   void unload() {
@@ -85,7 +86,8 @@ class PausedCoupon {
 
 Result<PausedPull> pull_with_pauses(const Simulation& simulation, const Loading& loading) {
   if (loading.turns.empty()) return fail("tensile tester: a programme without strains, expected one with pauses");
-  const auto law = coupon_law(simulation);
+  const double holds_s = std::accumulate(loading.holds_s.begin(), loading.holds_s.end(), 0.0);
+  const auto law = coupon_law(simulation, holds_s + loading.dwell_s.value_or(0.0));
   if (!law) return tl::unexpected(law.error());
   PausedCoupon coupon(*law, simulation.conditions.strain_rate_per_s);
   PausedPull shown;

@@ -12,9 +12,8 @@ namespace {
 /// Strain in one step of the integration along a history.
 constexpr double kStepStrain = 5e-4;
 
-Result<Curve> pull_coupon(const material::ExtendedLaw& law, double rate_per_s,
-                          const std::vector<double>& strain_history) {
-  material::PulledBar coupon(law);
+Result<Curve> pull_coupon(const CouponLaw& law, double rate_per_s, const std::vector<double>& strain_history) {
+  material::PulledBar coupon = law.bar();
   Curve curve;
   double strain = 0.0;
   for (const double target : strain_history) {
@@ -42,11 +41,12 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
       return fail("tensile tester: strain {} at sample {}, expected a number above -1", strain_history[i], i);
   material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
   extensions.shrinkage = 0.0;
-  if (extensions.any()) return pull_coupon(*law, simulation.conditions.strain_rate_per_s, strain_history);
+  if (extensions.any() || !law->relaxation.is_elastic())
+    return pull_coupon(*law, simulation.conditions.strain_rate_per_s, strain_history);
   Curve curve;
   for (const double strain : strain_history) {
     curve.strain.push_back(strain);
-    curve.stress_pa.push_back(material::uniaxial_stress(strain, law->lame).nominal_stress_pa);
+    curve.stress_pa.push_back(material::uniaxial_stress(strain, law->law.lame).nominal_stress_pa);
   }
   return curve;
 }

@@ -274,22 +274,29 @@ TEST(HiddenCoupons, AreUnloadedAsOrdered) {
 
 // Pauses mean in the laboratory what they mean in the tester: hold, set at zero force, set after a dwell.
 TEST(HiddenCoupons, AreHeldAndLeftAsInTheTester) {
+  struct Law {
+    double rigid_fraction;
+    HiddenEffects hidden;
+    material::Extensions simulated;
+  };
   const tester::Loading loading{{0.015}, {20.0}, 200.0};
-  for (const bool flows : {false, true}) {
+  for (const Law& law :
+       {Law{1.0, {.rigid_yield_pa = 1.2e7}, {{"rigid_yield", {1.2e7}}}},
+        Law{1.0, {.rate_overstress = 0.6, .rate_relaxation_s = 30.0}, {{"rate_dependence", {0.6, 30.0}}}},
+        Law{0.8, {.rate_exponent = 0.2, .rate_exponent_ratio = 0.4}, {{"rate_power_law", {0.2, 0.7, 0.4}}}},
+        Law{0.8,
+            {.two_overstresses = 0.5, .shorter_relaxation_s = 0.05},
+            {{"rate_prony", {0.5, 0.05, 0.5, 1000.0}}}}}) {
     Truth truth = unaffected_truth();
     truth.coupons = {};
-    tester::Simulation simulation{pattern::Mixture{1.0}, material::default_parameters(), {}, tester::Fidelity::tiny};
+    truth.effects = law.hidden;
+    tester::Simulation simulation{
+        pattern::Mixture{law.rigid_fraction}, material::default_parameters(), {}, tester::Fidelity::tiny};
     simulation.parameters.modulus = truth.modulus;
     simulation.parameters.toughness = truth.toughness;
-    if (flows) {
-      truth.effects.rigid_yield_pa = 1.2e7;
-      simulation.parameters.extensions["rigid_yield"] = {1.2e7};
-    } else {
-      truth.effects.rate_overstress = 0.6;
-      truth.effects.rate_relaxation_s = 30.0;
-      simulation.parameters.extensions["rate_dependence"] = {0.6, 30.0};
-    }
-    const Experiment experiment{.design = pattern::Mixture{1.0},
+    simulation.parameters.extensions = law.simulated;
+    const std::string& flows = law.simulated.begin()->first;
+    const Experiment experiment{.design = pattern::Mixture{law.rigid_fraction},
                                 .test = tester::TestKind::tensile,
                                 .fidelity = truth.fidelity,
                                 .loading = loading};
