@@ -177,15 +177,21 @@ FittedModel fit_model(const FeatureModel& model, const Observations& observation
   return fit;
 }
 
-double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
-                    Eigen::VectorXd* delta) {
+double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta,
+                    const Eigen::VectorXd& effect_sd) {
   // Data that no longer determine a coordinate would send it out of its range: it is put at its bound, and the others
   // are solved for again.
   FittedModel part = fit;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
   Eigen::VectorXd b = fit.whitened_residual(y, whitener);
+  const Eigen::Index rows = b.size();
+  b.conservativeResizeLike(Eigen::VectorXd::Zero(rows + effect_sd.size()));
   while (!part.free.empty()) {
-    const Eigen::MatrixXd a = part.whitened_columns(whitener);
+    Eigen::MatrixXd a = part.whitened_columns(whitener);
+    a.conservativeResizeLike(Eigen::MatrixXd::Zero(b.size(), a.cols()));
+    for (std::size_t k = 0; k < part.free.size() && effect_sd.size() > 0; ++k)
+      if (const int effect = part.free[k] - fit.base_count; effect >= 0)
+        a(rows + effect, static_cast<Eigen::Index>(k)) = 1.0 / effect_sd[effect];
     const Eigen::VectorXd step = a.householderQr().solve(b);
     Eigen::Index worst = -1;
     double excess = 1e-9, bounded = 0.0;

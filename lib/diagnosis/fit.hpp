@@ -53,8 +53,8 @@ FittedModel linearised(const FeatureModel& model, const std::vector<std::string>
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
 /// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the
-/// minimiser when wanted.
+/// minimiser when wanted. `effect_sd`: of a prior of the effects' coordinates about where they are; none where empty.
 double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
-                    Eigen::VectorXd* delta = nullptr);
+                    Eigen::VectorXd* delta = nullptr, const Eigen::VectorXd& effect_sd = {});
 
 }  // namespace nacre::diagnosis

@@ -111,15 +111,19 @@ std::size_t scatter_of(const Observation& added, const Observations& measured) {
 }
 
 /// The inverse of the covariance of a model's free coordinates: information of the data, prior of the base constants,
-/// and for an effect a uniform prior over its range. `columns`: FittedModel::whitened_columns().
+/// Standard deviations of the effects' coordinates, uniform over their ranges.
+Eigen::VectorXd sd_of_effects(const FittedModel& model) {
+  const Eigen::Index count = model.u.size() - model.base_count;
+  return (model.upper - model.lower).tail(count) / std::sqrt(12.0);
+}
+
+/// and of the effects. `columns`: FittedModel::whitened_columns().
 Eigen::LDLT<Eigen::MatrixXd> information(const FittedModel& model, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd normal = columns.transpose() * columns;
-  for (std::size_t k = 0; k < model.free.size(); ++k) {
-    const int i = model.free[k];
-    if (i < model.base_count) continue;
-    const double width = model.upper[i] - model.lower[i];
-    normal.diagonal()[k] += 12.0 / (width * width);
-  }
+  const Eigen::VectorXd sd = sd_of_effects(model);
+  for (std::size_t k = 0; k < model.free.size(); ++k)
+    if (const int effect = model.free[k] - model.base_count; effect >= 0)
+      normal.diagonal()[k] += 1.0 / (sd[effect] * sd[effect]);
   return normal.ldlt();
 }
 
@@ -256,7 +260,7 @@ PredictedTests::Hypothesis PredictedTests::hypothesis_of(const Explanation& expl
 PredictedTests::WrongModelRefit PredictedTests::refit(const Hypothesis& truth, const Hypothesis& wrong) const {
   WrongModelRefit refit;
   const Eigen::VectorXd shown = truth.predicted.head(measured_.size());
-  linear_refit(wrong.measured, shown, wrong.whitener, &refit.step);
+  linear_refit(wrong.measured, shown, wrong.whitener, &refit.step, sd_of_effects(wrong.measured));
   refit.left = wrong.whitener(shown - wrong.measured.predicted - wrong.measured.jacobian * refit.step);
   return refit;
 }
@@ -345,8 +349,9 @@ std::vector<Separation> PredictedTests::separations(
                                                                                    : new_row(row, wrong));
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       const auto [a, b] = pairs[p];
-      if (is_replicate(added[a], std::min(added[a].variance, added[b].variance), a, b)) continue;
-      const double freer = added[a].variance - added[b].variance;
+      const double freer = added[a].variance - added[b].variance,
+                   least = std::min(added[a].variance, added[b].variance);
+      if (std::abs(freer) < same_errors_ * least && is_replicate(added[a], least, a, b)) continue;
       const double of_b = growth(added[b], a, b, std::max(0.0, freer)),
                    of_a = growth(added[a], b, a, std::max(0.0, -freer));
       const double grown = holds(hypotheses_[a], hypotheses_[b])   ? of_b

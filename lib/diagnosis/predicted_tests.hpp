@@ -68,7 +68,8 @@ class PredictedTests {
   /// Of two rows of joined_.
   double covariance(int row, int other, const Hypothesis& hypothesis) const;
   /// Whether the same design was measured under conditions from which both models predict the same change: a further
-  /// replicate, which separates the models no better than it did. `variance`: the least of the row by either.
+  /// replicate, which separates the models no better than it did, unless one is much surer of it. `variance`: the least
+  /// of the row by either.
   bool is_replicate(const NewRow& row, double variance, std::size_t a, std::size_t b) const;
   /// Whether one is the other with effects added, beside the same levels.
   static bool holds(const Hypothesis& whole, const Hypothesis& part);

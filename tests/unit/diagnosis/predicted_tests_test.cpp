@@ -10,8 +10,10 @@
 #include <map>
 #include <memory>
 
+#include "diagnosis/factors.hpp"
 #include "diagnosis/shared_discretisation.hpp"
 #include "diagnosis/words.hpp"
+#include "made_specimens.hpp"
 #include "synthetic_set.hpp"
 
 namespace nacre::diagnosis {
@@ -133,6 +135,54 @@ TEST_F(MixedDroplets, ATestThatBothModelsTakeForAReplicateSeparatesNothing) {
       EXPECT_EQ(errors, 0.0) << in_words(twins[t]) << ": neither cause knows of rates or thickness";
   }
   EXPECT_GT(most_turned, 1.0) << "of the causes only one has a direction";
+}
+
+/// Chi squared of an explanation fitted to exactly what another predicts.
+double chi2_of(const Evidence& evidence, Observations rows, const Explanation& truth, const Explanation& fitted) {
+  const FeatureModel model(rows, evidence.model.basis(), tester::Fidelity::tiny);
+  rows.values = model.predict(model.map(truth.model.effects), truth.model.u);
+  rows.levels = free_directions(rows, fitted.beside, {});
+  return fit_model(model, rows, {}, fitted.model.effects, fitted.model.u).chi2;
+}
+
+/// Pulls of warm specimens that are as slow pulls of cold ones; the rate varies at 23 and 40 C. `stiffness`: 1 puts E
+/// at the lower bound of its range.
+std::vector<measurement::SpecimenRecord> shifted_specimens(double stiffness) {
+  std::vector<Made> all;
+  for (const double temperature_c : {10.0, 23.0, 40.0, 60.0})
+    for (const double rate : {1e-3, 1e-2, 1e-1})
+      if (rate == 1e-2 || temperature_c == 23.0 || temperature_c == 40.0)
+        all.push_back({1.0, rate, {{"temperature_c", std::to_string(temperature_c)}}});
+  return specimens_of(all, [stiffness](const Made& made) {
+    const double above = std::stod(made.columns.at("temperature_c")) - 23.0;
+    return stiffness * std::pow(made.rate_per_s * std::pow(10.0, -8.86 * above / (101.6 + above)) / 1e-2, 0.1);
+  });
+}
+
+// A shifted power of the rate is a level at each temperature: where the exponent was measured a further rate tells
+// nothing, and next to nothing is promised. With effects free beyond their ranges it was 20 standard errors.
+TEST(PredictedTests, BesideALawOfTheRatePromiseNothingWhereItsExponentWasMeasured) {
+  for (const auto& [stiffness, most] : {std::pair{1.5, TestRules{}.least_errors}, {1.0, 3.0}}) {
+    const DiagnosisSettings settings = quick_settings();
+    const Evidence evidence = gather_evidence(data_of(shifted_specimens(stiffness), settings), settings);
+    const std::vector<Explanation> both = explanations_to_separate(evidence, decide(evidence));
+    ASSERT_EQ(both.size(), 2u);
+    ASSERT_TRUE(both[1].beside.has_exponents);
+    std::vector<PossibleTest> tests = possible_tests(evidence.observations, {});
+    std::erase_if(tests, [](const PossibleTest& test) {
+      return test.way.kind != AddedTest::at_other_rate || test.surroundings.temperature_c != 23.0;
+    });
+    ASSERT_FALSE(tests.empty());
+    const PredictedTests predicted(evidence, both, tests, kReplicates);
+    const auto apart = [&](const Observations& rows) {
+      return chi2_of(evidence, rows, both[0], both[1]) - chi2_of(evidence, rows, both[0], both[0]);
+    };
+    const double before = apart(evidence.observations);
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      EXPECT_LT(apart(with_test(evidence.observations, tests[t])) - before, 0.25) << "what is given";
+      EXPECT_LT(predicted.separations(t, {{0, 1}}).front().errors, most) << in_words(tests[t]);
+    }
+  }
 }
 
 }  // namespace
