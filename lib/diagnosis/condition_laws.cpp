@@ -194,7 +194,7 @@ bool machines_are_compared(const Observations& observations) {
   for (const Observation& group : observations.groups) {
     std::set<std::string>& own = tested[group.machine];
     for (const std::string& piece : group.pieces) own.insert("piece " + piece);
-    for (const std::string& batch : group.batches) own.insert("batch " + batch);
+    for (const auto& [batch, pieces] : group.batches) own.insert("batch " + batch);
   }
   return joined(tested).size() == 1;
 }

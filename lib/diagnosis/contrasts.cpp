@@ -251,10 +251,12 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
                           {row.feature, row.test, ""},
                           Eigen::VectorXd::Unit(observations.size(), i)});
   }
-  for (const BatchOffset& offset : observations.batch_offsets)
+  for (const BatchOffset& offset : observations.batch_offsets) {
+    if (!offset.is_off_change) continue;
     directions.push_back({fmt::format("{} of batch \"{}\"", in_words(offset.feature), offset.batch),
                           {offset.feature, offset.test, ""},
                           offset.rows.normalized()});
+  }
   return directions;
 }
 

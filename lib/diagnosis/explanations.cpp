@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "diagnosis/condition_laws.hpp"
+#include "diagnosis/misfit.hpp"
 #include "diagnosis/words.hpp"
 
 namespace nacre::diagnosis {
@@ -55,7 +56,22 @@ std::vector<Explanation> factors_in_question(const Evidence& evidence) {
   return explanations;
 }
 
-/// A named model with a law of a condition, and the same with free levels in place of that.
+/// The base beside free levels of each condition that goes with this one.
+std::vector<Explanation> alike_in_question(const Evidence& evidence, const Decision& decision,
+                                           const std::string& condition) {
+  if (decision.contrasts.empty()) return {};
+  const Contrast& strongest = decision.contrasts.front();
+  std::vector<std::string> together = conditions_alike(plain(evidence), strongest);
+  together.push_back(strongest.view.against);
+  if (std::ranges::count(together, condition) == 0) return {};
+  std::vector<Explanation> explanations;
+  for (const std::string& other : together)
+    if (other != condition) explanations.push_back(refitted(evidence, evidence.base.fit, {.factors = {other}}));
+  return explanations;
+}
+
+/// A named model with a law of a condition, and the same with free levels in place of that, or of a condition that goes
+/// with it.
 std::vector<Explanation> law_in_question(const Evidence& evidence, const Decision& decision) {
   const FittedModel& named = decision.possible.front();
   const std::string condition(material::find_effect(named.effects.back())->law_of);
@@ -65,7 +81,9 @@ std::vector<Explanation> law_in_question(const Evidence& evidence, const Decisio
   FreeLevels levels = decision.beside;
   if (condition != kStrainRate) levels.factors.push_back(condition);
   levels.has_exponents = levels.has_exponents || condition == kStrainRate || condition == "temperature";
-  return {{named, decision.beside}, refitted(evidence, without, std::move(levels))};
+  std::vector<Explanation> explanations = alike_in_question(evidence, decision, condition);
+  explanations.insert(explanations.begin(), {{named, decision.beside}, refitted(evidence, without, std::move(levels))});
+  return explanations;
 }
 
 /// What differs between the machines is theirs, or that of the specimens on each.

@@ -18,9 +18,10 @@ struct Explanation {
 std::vector<Explanation> beside_levels_of(const Evidence& evidence, std::vector<FittedModel> models);
 
 /// What the next tests should separate: laws of a condition that explain the data equally well; a named law of a
-/// condition and its free levels; conditions that these data cannot part; a machine and the specimens that were tested
-/// on it. Where no condition is in question the models that stay possible, the effects that come nearest to an
-/// unexplained misfit, or, where nothing would show, each effect, and the base. Fewer than two: nothing is in question.
+/// condition, its free levels, and those of a condition that goes with it; conditions that these data cannot part; a
+/// machine and the specimens that were tested on it; forms of a named effect. Where no condition is in question the
+/// models that stay possible, the effects that come nearest to an unexplained misfit, or, where nothing would show,
+/// each effect, and the base. Fewer than two: nothing is in question.
 std::vector<Explanation> explanations_to_separate(const Evidence& evidence, const Decision& decision);
 
 /// "rate power law with temperature shift", "a dependence on temperature", "rate power law beside a dependence on

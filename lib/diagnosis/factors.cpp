@@ -18,6 +18,8 @@ constexpr std::string_view kMaterial = "material";
 /// Every specimen has a place of its own in it: a trend, and no level each.
 constexpr std::string_view kPrintOrder = "print order";
 
+/// Replicates of one group may be of several: each has a level, and a group that of its pieces in the mean.
+constexpr std::string_view kBatch = "batch";
 /// The value of a factor as a name. Surroundings are equal within what no laboratory holds.
 std::string value_of(const Observation& group, std::string_view factor) {
   if (factor == kMaterial) return group.material();
@@ -124,6 +126,7 @@ Eigen::VectorXd trend_over_order(const Observations& observations) {
   double last = 1.0;
   for (int i = 0; i < observations.size(); ++i) {
     if (observations.rows[i].kind != RowKind::mean) continue;
+    if (observations.rows[i].kind == RowKind::print_order) order[i] = 1.0;
     order[i] = observations.group_of(i).print_order;
     last = std::max(last, order[i]);
   }
@@ -131,6 +134,44 @@ Eigen::VectorXd trend_over_order(const Observations& observations) {
 }
 
 }  // namespace
+/// What the level of one batch adds to every row: of means the share of their pieces, of history what it is off by.
+Eigen::VectorXd share_of_batch(const Observations& observations, const std::string& batch) {
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(observations.size());
+  for (int i = 0; i < observations.size(); ++i) {
+    if (observations.rows[i].kind != RowKind::mean) continue;
+    const std::map<std::string, int>& batches = observations.group_of(i).batches;
+    int noted = 0;
+    for (const auto& [name, pieces] : batches) noted += pieces;
+    if (const auto own = batches.find(batch); own != batches.end()) share[i] = static_cast<double>(own->second) / noted;
+  }
+  for (const BatchOffset& offset : observations.batch_offsets)
+    if (offset.batch == batch) share.head(offset.rows.size()) += offset.rows;
+  return share;
+}
+
+/// The directions of both: each tells between groups, and between replicates of one group.
+std::vector<Eigen::VectorXd> history_directions(const Observations& observations, bool over_order, bool over_batches) {
+  std::vector<Eigen::VectorXd> directions;
+  if (over_order) directions.push_back(trend_over_order(observations));
+  if (!over_batches) return directions;
+  std::set<std::string> names;
+  for (const Observation& group : observations.groups)
+    for (const auto& [batch, pieces] : group.batches) names.insert(batch);
+  for (const std::string& name : names) directions.push_back(share_of_batch(observations, name));
+  return directions;
+}
+
+/// Rows of history of the same test and feature, which all materials share.
+std::vector<Eigen::Index> history_of(const Observations& observations, const DataRow& row) {
+  std::vector<Eigen::Index> rows;
+  for (int i = 0; i < observations.size(); ++i) {
+    const DataRow& other = observations.rows[i];
+    const bool is_history = other.kind != RowKind::mean && other.kind != RowKind::constant;
+    if (is_history && other.test == row.test && other.feature == row.feature) rows.push_back(i);
+  }
+  return rows;
+}
+
 
 std::size_t most_values(const Observations& observations, const std::string& factor) {
   std::map<std::string, std::set<std::string>> values;
@@ -177,12 +218,17 @@ std::vector<std::string> varying_factors(const Observations& observations) {
 Eigen::MatrixXd level_directions(const Observations& observations, const std::vector<std::string>& factors, double sd) {
   Eigen::MatrixXd directions(observations.size(), 0);
   std::vector<std::string> levelled = factors;
-  const bool over_order = std::erase(levelled, kPrintOrder) > 0;
-  const Eigen::VectorXd order = trend_over_order(observations);
-  for (const auto& [whole, cells] : cells_of(observations, levelled)) {
+  const bool over_order = std::erase(levelled, kPrintOrder) > 0, over_batches = std::erase(levelled, kBatch) > 0;
+  const std::vector<Eigen::VectorXd> of_history = history_directions(observations, over_order, over_batches);
+  const std::map<std::string, Cells> wholes = cells_of(observations, levelled);
+  for (const auto& [whole, cells] : wholes) {
     std::vector<Eigen::Index> all;
     for (const auto& [values, rows] : cells) all.insert(all.end(), rows.begin(), rows.end());
-    if (over_order) append_centred(directions, sd * order, all, observations.values.size());
+    const std::vector<Eigen::Index> history = history_of(observations, observations.rows[all.front()]);
+    for (const Eigen::VectorXd& direction : of_history) {
+      append_centred(directions, sd * direction, all, observations.values.size());
+      directions.rightCols(1)(history, 0) = sd / static_cast<double>(wholes.size()) * direction(history);
+    }
     const bool is_measured = all.front() < observations.values.size();
     if (cells.size() < 2 && (is_measured || levelled.empty())) continue;
     for (const auto& [values, rows] : cells) {
@@ -258,6 +304,58 @@ Observations with_free_exponents(Observations observations, const std::vector<st
 }
 
 bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors) {
+namespace {
+
+/// Of one material: rows that show its stiffness, by test.
+std::map<std::string, std::vector<Eigen::Index>> stiffness_rows(const Observations& observations) {
+  std::map<std::string, std::vector<Eigen::Index>> rows;
+  for (int i = 0; i < observations.size(); ++i) {
+    const DataRow& row = observations.rows[i];
+    if (row.kind != RowKind::mean || observations.group_of(i).design.layout()) continue;
+    const Feature feature = row.test == tester::TestKind::modulus ? Feature::log_modulus : Feature::log_tangent_30;
+    if (row.feature == feature)
+      rows[fmt::format("{} {}", static_cast<int>(row.test), observations.group_of(i).material())].push_back(i);
+  }
+  return rows;
+}
+
+/// The far end of the interval of log E over the range of a condition; 0 where it does not vary.
+double log_change_left(const Observations& observations, const Descriptor& condition,
+                       const std::vector<Eigen::Index>& rows) {
+  constexpr double kNinetyPercent = 1.645;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(count, 2);
+  for (Eigen::Index k = 0; k < count; ++k)
+    columns(k, 1) = condition.of(observations.group_of(static_cast<int>(rows[k])));
+  const double range = columns.col(1).maxCoeff() - columns.col(1).minCoeff();
+  if (!(range > 0.0)) return 0.0;
+  columns.col(1) = (columns.col(1).array() - columns.col(1).mean()) / range;
+  const Whitener whitener(observations.covariance()(rows, rows));
+  const Eigen::MatrixXd whitened = whitener(columns);
+  const Eigen::LDLT<Eigen::MatrixXd> normal = (whitened.transpose() * whitened).ldlt();
+  const Eigen::VectorXd line = normal.solve(whitened.transpose() * whitener(observations.values(rows)));
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(observations.size());
+  change(rows) = columns.col(1);
+  const double error = std::sqrt(normal.solve(Eigen::Vector2d::Unit(1))[1]);
+  return std::abs(line[1]) + kNinetyPercent * student(dof_behind(observations, change)) * error;
+}
+
+}  // namespace
+
+Change largest_change_left(const Observations& observations) {
+  Change largest;
+  const std::map<std::string, std::vector<Eigen::Index>> rows_of = stiffness_rows(observations);
+  const std::vector<std::string> varying = varying_factors(observations);
+  for (const Descriptor& condition : descriptors()) {
+    const bool happened = condition.name == kPrintOrder || condition.name == kBatch;
+    if (happened || std::ranges::find(varying, condition.name) == varying.end()) continue;
+    for (const auto& [material, rows] : rows_of)
+      if (const double size = std::expm1(log_change_left(observations, condition, rows)); size > largest.size)
+        largest = {condition.name, size};
+  }
+  return largest;
+}
+
   return (log_rates_within_others(observations, factors).transpose() * observations.values).sum() > 0.0;
 }
 

@@ -148,7 +148,7 @@ Observation mean_of(const std::vector<Measured>& replicates, const CurveReading&
       ++with_order;
     }
     group.batch_step += each.batch_step / group.replicates;
-    if (!each.specimen->batch.empty()) group.batches.insert(each.specimen->batch);
+    if (!each.specimen->batch.empty()) ++group.batches[each.specimen->batch];
   }
   std::ranges::sort(group.pieces);
   if (with_order > 0) group.print_order /= with_order;
@@ -170,7 +170,7 @@ Observation mean_of(const std::vector<Measured>& replicates, const CurveReading&
   return group;
 }
 
-/// Of every batch that may lie off a steady change; the rows of history are the last of `row_count`.
+/// Of every batch; the rows of history are the last of `row_count`.
 std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, std::size_t row_count) {
   std::map<std::tuple<tester::TestKind, Feature, std::string>, Eigen::VectorXd> by_batch;
   std::set<std::pair<tester::TestKind, Feature>> with_rest;
@@ -186,7 +186,7 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
   std::vector<BatchOffset> offsets;
   for (const auto& [key, rows] : by_batch) {
     const auto& [test, feature, batch] = key;
-    if (with_rest.contains({test, feature})) offsets.push_back({batch, feature, test, rows});
+    offsets.push_back({batch, feature, test, rows, with_rest.contains({test, feature})});
   }
   return offsets;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,7 +35,7 @@ struct Observation {
   FeatureValues features;                       ///< means over the valid replicates
   int replicates = 0;                           ///< pieces: tests of one piece count once
   std::vector<std::string> pieces;              ///< sorted
-  std::set<std::string> batches;                ///< of its pieces, where noted
+  std::map<std::string, int> batches;           ///< pieces of each, where noted
   double print_order = 0.0;                     ///< mean, 0 when unknown
   double batch_step = 0.0;                      ///< mean number of the batch, the first is 0
   tester::Curve curve;           ///< of the replicate whose peak is the middle one; empty when none was recorded
@@ -72,6 +73,7 @@ struct BatchOffset {
   Feature feature = Feature::log_modulus;
   tester::TestKind test = tester::TestKind::modulus;
   Eigen::VectorXd rows;
+  bool is_off_change = false;  ///< it may lie off a steady change over the batches: there are three and more
 };
 
 /// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of
@@ -164,7 +166,7 @@ struct Observations {
   double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
   std::vector<std::string> machines;  ///< their names, sorted
   std::vector<std::string> materials;      ///< names of homogeneous ones, sorted
-  std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
+  std::vector<BatchOffset> batch_offsets;  ///< of every batch that replicates of one group tell
   int size() const { return rows.size(); }
   const Observation& group_of(int row) const { return groups[rows[row].group]; }
   bool has(tester::TestKind test) const;

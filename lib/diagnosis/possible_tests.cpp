@@ -20,6 +20,8 @@ constexpr double kCouponStrain = 0.02;  // also in in_words(PossibleTest)
 
 /// Groups of layouts that are not coupons, those of most replicates first.
 std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
+constexpr std::string_view kBatchToCome = "a batch to come";
+constexpr double kCouponStep = kCouponStrain / 40.0;
   std::vector<const Observation*> groups;
   for (const Observation& g : observations.groups)
     if (g.design.layout() && g.test != TestKind::tensile) groups.push_back(&g);
@@ -104,6 +106,31 @@ std::vector<PossibleTest> homogeneous_coupons(const Observations& observations, 
 }  // namespace
 
 bool is_twin(AddedTest kind) { return kind <= AddedTest::thinner_twin; }
+/// A pull as far as the others, held, unloaded to zero force and left as long: what is viscous relaxes and recovers,
+/// what is plastic stays.
+std::vector<PossibleTest> paused_coupons(const Observations& observations, const TestRules& rules) {
+  std::vector<PossibleTest> possible;
+  for (const double fraction : {1.0, 0.5, 0.0}) {
+    for (const double hold_s : rules.holds_s) {
+      possible.push_back({.way = {AddedTest::paused_coupon},
+                          .design = pattern::Mixture{fraction},
+                          .test = TestKind::tensile,
+                          .conditions = usual_conditions(observations, TestKind::tensile),
+                          .pauses = {{kCouponStrain}, {hold_s}, hold_s}});
+    }
+  }
+  return possible;
+}
+
+/// Whether pieces of measured specimens would stand beside others that were printed in another batch or at another
+/// time: what the group owes to either shows there.
+bool is_of_other_history(const PossibleTest& test, const Observation& group) {
+  if (!test.is_of_measured_batch) return false;
+  const bool in_its_batches =
+      std::ranges::all_of(test.batches, [&](const auto& batch) { return group.batches.contains(batch.first); });
+  return !in_its_batches || test.print_order != group.print_order;
+}
+
 
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
 
@@ -140,6 +167,8 @@ UsualSurroundings usual_surroundings(const Observations& observations) {
     auto& [count, first] = counts[measurement::nominal_surroundings(group.surroundings)];
     if (count++ == 0) first = &group;
   }
+  group.batches = test.batches;
+  if (group.batches.empty() && test.batch_step > 0.0) group.batches = {{std::string(kBatchToCome), replicates}};
   const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second.first; });
   if (most == counts.end()) return {};
   return {most->second.second->surroundings, most->second.second->machine};
@@ -160,11 +189,13 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, const
   std::vector<PossibleTest> left;
   for (PossibleTest& test : possible) {
     const bool measured = !test.second_machine && std::ranges::any_of(observations.groups, [&](const Observation& g) {
-      return would_join(test, g);
+      return would_join(test, g) && !is_of_other_history(test, g);
     });
     const bool listed = std::ranges::any_of(left, [&](const PossibleTest& other) {
-      const bool is_of_its_batch = test.is_of_measured_batch == other.is_of_measured_batch &&
-                                   (!test.is_of_measured_batch || test.batch_step == other.batch_step);
+      const bool is_of_its_batch =
+          test.is_of_measured_batch == other.is_of_measured_batch &&
+          (!test.is_of_measured_batch || (test.batches == other.batches && test.batch_step == other.batch_step &&
+                                          test.print_order == other.print_order));
       return test.second_machine == other.second_machine && is_of_its_batch && would_join(test, group_of(other, 1));
     });
     if (measured || listed) continue;

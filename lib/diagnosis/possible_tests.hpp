@@ -2,7 +2,9 @@
 // Tests that a laboratory could add to a measurement set.
 
 #include <compare>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
@@ -46,7 +48,8 @@ struct PossibleTest {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  double batch_step = 0.0;  ///< of a batch to come; 0 where there is one batch
+  double batch_step = 0.0;                  ///< of a batch to come; 0 where there is one batch
+  std::map<std::string, int> batches = {};  ///< measured ones that its pieces are of, as in Observation
   measurement::Surroundings surroundings = {};
   int machine = 0;                         ///< as in Observation
   std::optional<int> second_machine = {};  ///< the same pieces are tested on this one too

@@ -74,6 +74,7 @@ PossibleTest like(const Observation& group, AddedTest kind) {
           .conditions = group.conditions,
           .batch_step = group.batch_step,
           .surroundings = group.surroundings,
+          .batches = group.batches,
           .machine = group.machine,
           .print_order = group.print_order,
           .is_of_measured_batch = true};

@@ -58,8 +58,11 @@ std::string way_in_words(const TestWay& way) {
 }  // namespace
 
 std::string in_words(const PossibleTest& test) {
-  if (test.batch_step == 0.0) return way_in_words(test.way);
-  return way_in_words(test.way) + (test.is_of_measured_batch ? ", of the same batch" : ", in a new batch");
+  std::vector<std::string> batches;
+  for (const auto& [batch, pieces] : test.batches) batches.push_back(fmt::format("\"{}\"", batch));
+  if (batches.size() == 1) return fmt::format("{}, of the batch {}", way_in_words(test), batches.front());
+  if (test.batch_step == 0.0) return way_in_words(test);
+  return way_in_words(test) + (test.is_of_measured_batch ? ", of the same batch" : ", in a new batch");
 }
 
 std::string surroundings_in_words(const NextExperiment& experiment) {

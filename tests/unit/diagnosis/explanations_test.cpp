@@ -2,9 +2,11 @@
 
 #include "diagnosis/explanations.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -116,6 +118,72 @@ TEST(Explanations, ALevelOfANewTemperatureIsNoPrediction) {
   for (const NextExperiment& next : diagnosis.next_experiments)
     EXPECT_TRUE(std::set<double>({-10.0, 10.0, 30.0, 60.0, 90.0}).contains(*next.surroundings.temperature_c))
         << next.reason;
+}
+
+/// What was printed or treated together, five of each.
+std::vector<measurement::SpecimenRecord> in_batches(const std::vector<Made>& all,
+                                                    const std::function<double(const Made&)>& law) {
+  std::vector<measurement::SpecimenRecord> specimens = specimens_of(all, law);
+  for (measurement::SpecimenRecord& each : specimens) each.batch = each.other_columns.extract("batch_of").mapped();
+  return specimens;
+}
+
+std::vector<Made> a_humidity_a_batch() {
+  std::vector<Made> all;
+  for (const auto& [batch, humidity] : {std::pair{"A", "20"}, {"B", "50"}, {"C", "80"}})
+    for (int twice = 0; twice < 2; ++twice)
+      all.push_back({1.0, 1e-3, {{"humidity_pct", humidity}, {"batch_of", batch}}});
+  return all;
+}
+
+double softens_in_humidity(const Made& made) {
+  return std::exp(-0.006 * (std::stod(made.columns.at("humidity_pct")) - 50.0));
+}
+double is_of_its_batch(const Made& made) { return made.columns.at("batch_of") == "A" ? 1.2 : 1.0; }
+
+TEST(Explanations, HumidityAndBatchArePartedByPiecesOfABatchInAnotherHumidity) {
+  const Diagnosis before = diagnose(in_batches(a_humidity_a_batch(), softens_in_humidity), quick_settings());
+  ASSERT_EQ(before.factors.size(), 2u) << before.summary;
+  ASSERT_FALSE(before.next_experiments.empty());
+  const NextExperiment& next = before.next_experiments.front();
+  EXPECT_THAT(next.reason, testing::HasSubstr("of the batch")) << next.reason;
+  EXPECT_GT(promised_errors(next), 4.0);
+  // And once they are tested they tell which it is.
+  std::vector<Made> all = a_humidity_a_batch();
+  all.push_back({1.0, 1e-3, {{"humidity_pct", "80"}, {"batch_of", "A"}}});
+  all.push_back({1.0, 1e-3, {{"humidity_pct", "20"}, {"batch_of", "C"}}});
+  const Diagnosis humid = diagnose(in_batches(all, softens_in_humidity), quick_settings());
+  EXPECT_EQ(told_factors(humid.factors), std::vector<std::string>{"humidity"}) << humid.summary;
+  const Diagnosis batch = diagnose(in_batches(all, is_of_its_batch), quick_settings());
+  EXPECT_EQ(told_factors(batch.factors), std::vector<std::string>{"batch"}) << batch.summary;
+}
+
+TEST(Explanations, AgeAndPrintOrderArePartedByAPieceAtAnotherAge) {
+  std::vector<Made> all;
+  for (const char* age_days : {"1", "10", "100"})
+    for (int twice = 0; twice < 2; ++twice) all.push_back({1.0, 1e-3, {{"age_days", age_days}}});
+  std::vector<measurement::SpecimenRecord> specimens = specimens_of(
+      all, [](const Made& made) { return 1.0 + 0.1 * std::log10(std::stod(made.columns.at("age_days"))); });
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].print_order = static_cast<int>(i) + 1;
+  const Diagnosis diagnosis = diagnose(specimens, quick_settings());
+  ASSERT_EQ(diagnosis.cautions.alike.size(), 1u) << diagnosis.summary;
+  ASSERT_FALSE(diagnosis.next_experiments.empty());
+  const NextExperiment& next = diagnosis.next_experiments.front();
+  EXPECT_THAT(next.reason, testing::HasSubstr("from a dependence on print order")) << next.reason;
+  EXPECT_GT(promised_errors(next), 4.0);
+}
+
+// Over two decades of the rate three forms agree: which it is shows after hours.
+TEST(Explanations, FormsOfALawOfTheRateArePartedByPauses) {
+  std::vector<Made> all;
+  for (const double rate : {1e-3, 3e-3, 1e-2}) all.push_back({1.0, rate});
+  const Diagnosis diagnosis =
+      diagnose(specimens_of(all, [](const Made& made) { return 1.3 * power_of_rate(made); }), quick_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_FALSE(diagnosis.next_experiments.empty());
+  const NextExperiment& next = diagnosis.next_experiments.front();
+  EXPECT_TRUE(next.hold_s || next.loading.has_pauses()) << next.reason;
+  EXPECT_GT(promised_errors(next), 3.0);
 }
 
 }  // namespace
