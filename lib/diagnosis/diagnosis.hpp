@@ -170,6 +170,7 @@ struct NextExperiment {
   std::vector<std::string> machines = {};  ///< two: each piece on both; none: not noted in the data
   std::string reason;
 };
+  std::optional<double> hold_s = {};  ///< of a modulus that is left after a hold; the rate is that of such a pull
 
 /// One feature of one group of specimens as the report shows it.
 struct ResidualRow {

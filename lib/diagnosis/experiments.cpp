@@ -47,7 +47,8 @@ std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std
     const PossibleTest& test = tests[choice.test];
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
-    const tester::Loading loading = test.test == TestKind::tensile ? coupon_loading() : tester::Loading{};
+    tester::Loading loading = test.pauses;
+    if (test.test == TestKind::tensile && !loading.has_pauses()) loading = coupon_loading();
     std::vector<std::string> machines;
     if (!test.surroundings.machine.empty()) machines.push_back(test.surroundings.machine);
     if (test.second_machine) machines.push_back(evidence.observations.machines[*test.second_machine]);
@@ -57,7 +58,8 @@ std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std
                            .test = test.test,
                            .conditions = test.conditions,
                            .replicates = rules.replicates,
-                           .loading = loading,
+                           .loading = std::move(loading),
+                           .hold_s = test.surroundings.held ? hold_of(test) : std::nullopt,
                            .surroundings = test.surroundings,
                            .machines = std::move(machines),
                            .reason = reason});

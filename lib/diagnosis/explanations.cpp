@@ -139,6 +139,7 @@ std::vector<Explanation> explanations_to_separate(const Evidence& evidence, cons
   if (decision.verdict != Verdict::named && told == std::vector<std::string>{"temperature"})
     return temperature_in_question(evidence);
   if (decision.verdict != Verdict::named) return beside_levels_of(evidence, models_to_separate(evidence, decision));
+  if (decision.possible.size() > 1 && !decision.freed) return beside_levels_of(evidence, decision.possible);  // forms
   std::vector<Explanation> explanations = beside_levels_of(evidence, {decision.possible.front(), evidence.base.fit});
   if (decision.freed) explanations.front().beside = decision.beside;
   return explanations;

@@ -109,6 +109,7 @@ ordered_json json_of(const NextExperiment& e) {
           {"thickness_mm", e.conditions.thickness_mm},
           {"replicates", e.replicates},
           {"loading", tester::to_string(e.loading)},
+          {"hold_s", or_null(e.hold_s)},
           {"temperature_c", or_null(e.surroundings.temperature_c)},
           {"humidity_pct", or_null(e.surroundings.humidity_pct)},
           {"age_days", or_null(e.surroundings.age_days)},

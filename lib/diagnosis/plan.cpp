@@ -14,6 +14,7 @@
 #include "diagnosis/signatures.hpp"
 #include "diagnosis/words.hpp"
 #include "material/effect_library.hpp"
+#include "measurement/held_strain.hpp"
 #include "measurement/pauses.hpp"
 #include "tester/modulus.hpp"
 #include "tester/tensile.hpp"
@@ -89,6 +90,14 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   specimen.specimen += fmt::format("{} {} {} {} {} {}", test.design.name(), tester::to_string(test.test),
                                    test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
                                    test.conditions.thickness_mm, replicate);
+  if (test.pauses.has_pauses()) {
+    specimen.other_columns[std::string(measurement::kLoadingColumn)] = tester::to_string(test.pauses);
+    specimen.specimen += fmt::format(" held {}", *hold_of(test));
+  }
+  if (test.surroundings.held) {
+    specimen.other_columns[std::string(measurement::kHoldColumn)] = fmt::format("{}", *hold_of(test));
+    specimen.specimen += " held";
+  }
   return specimen;
 }
 
@@ -290,7 +299,9 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
       return std::ranges::any_of(alone.groups,
                                  [&](const Observation& other) {
                                    return other.design == group.design && other.test == group.test &&
-                                          other.conditions == group.conditions && other.unloaded == group.unloaded;
+                                          other.conditions == group.conditions && other.unloaded == group.unloaded &&
+                                          other.pauses == group.pauses &&
+                                          other.surroundings.held == group.surroundings.held;
                                  }) ||
              std::ranges::any_of(tests, [&](const PossibleTest& test) { return would_join(test, group); });
     };

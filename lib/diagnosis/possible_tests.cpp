@@ -7,8 +7,11 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/factors.hpp"
 #include "diagnosis/specimen_moduli.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/held_strain.hpp"
+#include "measurement/rounded.hpp"
 #include "pattern/coupons.hpp"
 
 namespace nacre::diagnosis {
@@ -17,11 +20,11 @@ namespace {
 using tester::TestKind;
 
 constexpr double kCouponStrain = 0.02;  // also in in_words(PossibleTest)
+constexpr std::string_view kBatchToCome = "a batch to come";
+constexpr double kCouponStep = kCouponStrain / 40.0;
 
 /// Groups of layouts that are not coupons, those of most replicates first.
 std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
-constexpr std::string_view kBatchToCome = "a batch to come";
-constexpr double kCouponStep = kCouponStrain / 40.0;
   std::vector<const Observation*> groups;
   for (const Observation& g : observations.groups)
     if (g.design.layout() && g.test != TestKind::tensile) groups.push_back(&g);
@@ -103,9 +106,6 @@ std::vector<PossibleTest> homogeneous_coupons(const Observations& observations, 
   return possible;
 }
 
-}  // namespace
-
-bool is_twin(AddedTest kind) { return kind <= AddedTest::thinner_twin; }
 /// A pull as far as the others, held, unloaded to zero force and left as long: what is viscous relaxes and recovers,
 /// what is plastic stays.
 std::vector<PossibleTest> paused_coupons(const Observations& observations, const TestRules& rules) {
@@ -131,12 +131,16 @@ bool is_of_other_history(const PossibleTest& test, const Observation& group) {
   return !in_its_batches || test.print_order != group.print_order;
 }
 
+}  // namespace
+
+bool is_twin(AddedTest kind) { return kind <= AddedTest::thinner_twin; }
 
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
 
-std::vector<double> unload_history() {
-  constexpr double kStep = kCouponStrain / 40.0;
-  return tester::strain_path(coupon_loading(), kStep);
+std::vector<double> unload_history() { return tester::strain_path(coupon_loading(), kCouponStep); }
+
+std::vector<double> strains_of(const tester::Loading& pauses) {
+  return pauses.has_pauses() ? tester::strain_path({{pauses.turns.front()}}, kCouponStep) : unload_history();
 }
 
 bool would_join(const PossibleTest& test, const Observation& group) {
@@ -144,7 +148,14 @@ bool would_join(const PossibleTest& test, const Observation& group) {
          measurement::same_conditions(test.conditions, group.conditions) &&
          measurement::nominal_surroundings(test.surroundings) ==
              measurement::nominal_surroundings(group.surroundings) &&
-         (test.test != TestKind::tensile || group.unloaded);
+         test.pauses == group.pauses && (test.test != TestKind::tensile || test.pauses.has_pauses() || group.unloaded);
+}
+
+std::optional<double> hold_of(const PossibleTest& test) {
+  if (!test.pauses.holds_s.empty()) return test.pauses.holds_s.front();
+  constexpr int kDigits = 3;
+  if (!test.surroundings.held) return std::nullopt;
+  return measurement::rounded(measurement::rate_of_hold(test.conditions.strain_rate_per_s), kDigits);
 }
 
 Observation group_of(const PossibleTest& test, int replicates) {
@@ -152,9 +163,12 @@ Observation group_of(const PossibleTest& test, int replicates) {
   group.design = test.design;
   group.test = test.test;
   group.conditions = test.conditions;
-  group.unloaded = test.test == TestKind::tensile;
+  group.unloaded = test.test == TestKind::tensile && !test.pauses.has_pauses();
+  group.pauses = test.pauses;
   group.replicates = replicates;
   group.batch_step = test.batch_step;
+  group.batches = test.batches;
+  if (group.batches.empty() && test.batch_step > 0.0) group.batches = {{std::string(kBatchToCome), replicates}};
   group.surroundings = test.surroundings;
   group.machine = test.machine;
   group.print_order = test.print_order;
@@ -167,11 +181,11 @@ UsualSurroundings usual_surroundings(const Observations& observations) {
     auto& [count, first] = counts[measurement::nominal_surroundings(group.surroundings)];
     if (count++ == 0) first = &group;
   }
-  group.batches = test.batches;
-  if (group.batches.empty() && test.batch_step > 0.0) group.batches = {{std::string(kBatchToCome), replicates}};
   const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second.first; });
   if (most == counts.end()) return {};
-  return {most->second.second->surroundings, most->second.second->machine};
+  UsualSurroundings usual{most->second.second->surroundings, most->second.second->machine};
+  usual.surroundings.held = false;
+  return usual;
 }
 
 std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules) {
@@ -181,6 +195,7 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, const
                             [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
   std::ranges::move(homogeneous_coupons(observations, rules), std::back_inserter(possible));
+  if (!has_layouts(observations)) std::ranges::move(paused_coupons(observations, rules), std::back_inserter(possible));
   const UsualSurroundings usual = usual_surroundings(observations);
   for (PossibleTest& test : possible) test.surroundings = usual.surroundings, test.machine = usual.machine;
   std::vector<PossibleTest> of_measured = twins(observations, rules);

@@ -18,9 +18,9 @@ namespace {
 
 using tester::TestKind;
 
-/// The curve of a homogeneous coupon that is unloaded on its way; empty when it cannot be pulled so.
+/// The curve of a homogeneous coupon to its first pause, or unloaded on its way; empty when it cannot be pulled so.
 tester::Curve coupon_curve(const PossibleTest& test, const material::ParameterSet& set, tester::Fidelity fidelity) {
-  auto curve = coupon_through_machine({test.design, set, test.conditions, fidelity}, unload_history());
+  auto curve = coupon_through_machine({test.design, set, test.conditions, fidelity}, strains_of(test.pauses));
   return curve ? *std::move(curve) : tester::Curve{};
 }
 
@@ -64,6 +64,7 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
   } else if (test.test == TestKind::tensile) {
     const tester::Curve curve = coupon_curve(test, set, fidelity);
     if (!curve.empty()) values = tensile_features(curve, reading);
+    if (!curve.empty() && test.pauses.has_pauses()) put_pauses(values, {1.0, 1.0, 1.0});  // the model has their values
   } else {
     values = mean_fracture_features(test, set, fidelity, reading, specimens);
   }
@@ -110,13 +111,13 @@ std::size_t scatter_of(const Observation& added, const Observations& measured) {
   return like == measured.rows.end() ? of_test : like->scatter;
 }
 
-/// The inverse of the covariance of a model's free coordinates: information of the data, prior of the base constants,
 /// Standard deviations of the effects' coordinates, uniform over their ranges.
 Eigen::VectorXd sd_of_effects(const FittedModel& model) {
   const Eigen::Index count = model.u.size() - model.base_count;
   return (model.upper - model.lower).tail(count) / std::sqrt(12.0);
 }
 
+/// The inverse of the covariance of a model's free coordinates: information of the data, prior of the base constants,
 /// and of the effects. `columns`: FittedModel::whitened_columns().
 Eigen::LDLT<Eigen::MatrixXd> information(const FittedModel& model, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd normal = columns.transpose() * columns;

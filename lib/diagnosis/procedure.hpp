@@ -177,14 +177,16 @@ struct TestRules {
   double second_rate = 10.0;      ///< over the usual one
   double second_thickness = 0.5;  ///< over the usual one
   int condition_twins = 3;        ///< designs of a test that are also tested under other conditions
-  double far_apart = 100.0;       ///< ratio of measured rates between which another is worth a test
-  double most_errors = 4.0;       ///< standard errors believed of one way of testing: predictions are no better
-  double least_errors = 1.0;      ///< below which a test separates nothing
-  double least_fall = 1e-6;       ///< of a chance of confusion, below which no further test is bought for it
-  double same_errors = 0.5;       ///< between two predicted changes: the test is a further replicate
-  int broken_specimens = 4;       ///< behind the prediction of a fracture test
-  int bundle = 3;                 ///< twins that a plan adds together
-  double worth_telling = 1.5;     ///< factor by which an addition lowers the smallest size told apart
+  std::array<double, 3> holds_s{30.0, 600.0, 7200.0};  ///< of relaxation and coupons with pauses: a coffee, an hour
+                                                       ///< with its mounting, an afternoon
+  double far_apart = 100.0;    ///< ratio of measured rates between which another is worth a test
+  double most_errors = 4.0;    ///< standard errors believed of one way of testing: predictions are no better
+  double least_errors = 1.0;   ///< below which a test separates nothing
+  double least_fall = 1e-6;    ///< of a chance of confusion, below which no further test is bought for it
+  double same_errors = 0.5;    ///< between two predicted changes: the test is a further replicate
+  int broken_specimens = 4;    ///< behind the prediction of a fracture test
+  int bundle = 3;              ///< twins that a plan adds together
+  double worth_telling = 1.5;  ///< factor by which an addition lowers the smallest size told apart
   std::array<double, 9> planned_sizes{0.03, 0.05, 0.1,  0.15, 0.2,
                                       0.25, 0.3,  0.45, 0.6};  ///< closer than FitRules::sizes:
                                                                ///< flow begins at once

@@ -147,6 +147,7 @@ constexpr void TestRules::fields(auto& field, auto& m) {
   field("second_thickness", m.second_thickness);
   field("condition_twins", m.condition_twins);
   field("far_apart", m.far_apart);
+  field("holds_s", m.holds_s);
   field("most_errors", m.most_errors);
   field("least_errors", m.least_errors);
   field("least_fall", m.least_fall);

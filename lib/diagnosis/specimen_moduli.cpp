@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "measurement/held_strain.hpp"
 #include "measurement/limits.hpp"
 #include "measurement/rounded.hpp"
 
@@ -73,8 +74,8 @@ PossibleTest like(const Observation& group, AddedTest kind) {
           .test = TestKind::modulus,
           .conditions = group.conditions,
           .batch_step = group.batch_step,
-          .surroundings = group.surroundings,
           .batches = group.batches,
+          .surroundings = group.surroundings,
           .machine = group.machine,
           .print_order = group.print_order,
           .is_of_measured_batch = true};
@@ -98,6 +99,20 @@ std::vector<PossibleTest> with_one_other_condition(const Groups& groups, const T
         tests.push_back(like(*group, condition.kind));
         condition.set(tests.back(), value);
       }
+    }
+  }
+  return tests;
+}
+
+/// The modulus that is left after a hold, of the pulled ones.
+std::vector<PossibleTest> relaxations(const Groups& groups, const TestRules& rules) {
+  std::vector<PossibleTest> tests;
+  for (const Observation* group : told_apart_most(groups)) {
+    if (group->surroundings.held) continue;
+    for (const double hold_s : rules.holds_s) {
+      tests.push_back(like(*group, AddedTest::relaxation));
+      tests.back().conditions.strain_rate_per_s = measurement::rounded(measurement::rate_of_hold(hold_s), 6);
+      tests.back().surroundings.held = true;
     }
   }
   return tests;
@@ -143,6 +158,7 @@ std::vector<PossibleTest> moduli_of_specimens(const Observations& observations, 
   }
   if (groups.empty()) return {};
   std::vector<PossibleTest> tests = with_one_other_condition(groups, rules);
+  std::ranges::move(relaxations(groups, rules), std::back_inserter(tests));
   if (observations.machines.size() > 1)
     std::ranges::move(on_other_machines(observations, groups), std::back_inserter(tests));
   return tests;

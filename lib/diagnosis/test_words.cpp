@@ -20,7 +20,8 @@ std::string_view rate_in_words(AddedTest kind) {
   }
 }
 
-std::string way_in_words(const TestWay& way) {
+std::string way_in_words(const PossibleTest& test) {
+  const TestWay& way = test.way;
   switch (way.kind) {
     case AddedTest::turned_twin:
       return "a twin printed turned by 90 degrees";
@@ -37,6 +38,12 @@ std::string way_in_words(const TestWay& way) {
       return fmt::format("a laminate of period {} along the pull", way.period);
     case AddedTest::at_other_rate:
       return "a further specimen at another strain rate";
+    case AddedTest::relaxation:
+      return fmt::format("a further specimen held at its strain for {:g} s", *hold_of(test));
+    case AddedTest::paused_coupon:
+      return fmt::format(
+          "a homogeneous coupon pulled to 2 % strain, held for {0:g} s, unloaded to zero force and left for {0:g} s",
+          *hold_of(test));
     case AddedTest::at_other_temperature:
       return "a further specimen at another temperature";
     case AddedTest::in_other_humidity:
@@ -70,6 +77,7 @@ std::string surroundings_in_words(const NextExperiment& experiment) {
   std::string words;
   if (s.temperature_c) words += fmt::format(", at {:.3g} C", *s.temperature_c);
   if (s.humidity_pct) words += fmt::format(", in {:.3g} % humidity", *s.humidity_pct);
+  if (experiment.hold_s) words += fmt::format(", held for {:.3g} s", *experiment.hold_s);
   if (s.age_days) words += fmt::format(", {:.3g} days old", *s.age_days);
   if (!experiment.machines.empty())
     words += fmt::format(", on the machine{} \"{}\"", experiment.machines.size() > 1 ? "s" : "",
@@ -102,8 +110,9 @@ std::string bundle_in_words(const PossibleTest& test) {
       break;
   }
   if (test.way.kind >= AddedTest::at_other_rate)
-    return fmt::format("moduli of {} specimens: {}", test.design.name(), way_in_words(test.way));
+    return fmt::format("moduli of {} specimens: {}", test.design.name(), way_in_words(test));
   if (is_twin(test.way.kind)) return fmt::format("{}, {} tests", in_words(test), tester::to_string(test.test));
+  if (test.way.kind == AddedTest::paused_coupon) return "homogeneous coupons held, unloaded and left";
   return "homogeneous coupons at several rates, unloaded on the way";
 }
 

@@ -11,7 +11,7 @@ namespace nacre::diagnosis {
 
 /// "a twin printed turned by 90 degrees"
 std::string in_words(const PossibleTest& test);
-/// ", at 40 C, on the machine "B"": of what is noted; empty where nothing is.
+/// ", at 40 C, held for 600 s, on the machine "B"": of what is noted; empty where nothing is.
 std::string surroundings_in_words(const NextExperiment& experiment);
 /// Why a test is proposed: it separates two explanations, given in words; or it tells a material's own E.
 struct Separated {

@@ -267,11 +267,29 @@ TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
     const auto tests = possible_tests(measured, {});
     return std::any_of(tests.begin(), tests.end(), [](const PossibleTest& test) {
       return test.test == tester::TestKind::tensile && test.design == pattern::Design(pattern::Mixture{1.0}) &&
-             test.conditions == tester::TestConditions{};
+             !test.pauses.has_pauses() && test.conditions == tester::TestConditions{};
     });
   };
   EXPECT_TRUE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02})})));
   EXPECT_FALSE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02, 0.005, 0.022})})));
+}
+
+// What is viscous comes back, what is plastic stays.
+TEST(Observations, CouponsWithPausesAreOfferedUntilTheyAreMeasured) {
+  const auto holds_offered = [](const Observations& measured) {
+    std::set<double> holds_s;
+    for (const PossibleTest& test : possible_tests(measured, {}))
+      if (test.pauses.has_pauses() && test.design == pattern::Design(pattern::Mixture{1.0})) {
+        EXPECT_TRUE(test.pauses.dwell_s);
+        holds_s.insert(test.pauses.holds_s.front());
+      }
+    return holds_s;
+  };
+  std::vector<measurement::SpecimenRecord> coupons = {coupon("a/1", {0.0, 0.01, 0.02})};
+  EXPECT_EQ(holds_offered(observed(coupons)), (std::set{30.0, 600.0, 7200.0}));
+  coupons.push_back(coupon("a/2", {0.0, 0.005, 0.01, 0.015, 0.02, 0.02, 0.01, 0.005, 0.001}));
+  coupons.back().other_columns["loading"] = "strain 0.02 hold 600 unload dwell 600";
+  EXPECT_EQ(holds_offered(observed(coupons)), (std::set{30.0, 7200.0}));
 }
 
 // What relaxes within a second is relaxed in a creep test and not in an impact: neither shows it.
