@@ -325,4 +325,14 @@ DataSummary summary_of_data(const std::vector<SpecimenRecord>& specimens, const 
   return {means_of(readings), trends_of(nominal, readings, rules)};
 }
 
+const ConditionTrend* trend_along_a_further_column(const DataSummary& data, double chance) {
+  static const std::set<std::string_view> kKnown = {
+      "strain_rate_per_s", "thickness_mm", "orientation_deg", "batch",  "print_order",
+      "temperature_c",     "humidity_pct", "age_days",        "machine"};
+  const auto found = std::ranges::find_if(data.trends, [&](const ConditionTrend& trend) {
+    return trend.chance < chance && !kKnown.contains(trend.condition);
+  });
+  return found == data.trends.end() ? nullptr : &*found;
+}
+
 }  // namespace nacre::diagnosis

@@ -54,4 +54,8 @@ struct DataSummary {
 /// are those within pieces. Without any freedom left the scatter is assumed (NoiseRules::assumed_sd).
 DataSummary summary_of_data(const std::vector<measurement::SpecimenRecord>& specimens, const NoiseRules& rules);
 
+/// The surest trend along a column that no effect and no factor of a diagnosis is about ("layer_height_mm"), where
+/// chance gives it more seldom than this; nothing where there is none.
+const ConditionTrend* trend_along_a_further_column(const DataSummary& data, double chance);
+
 }  // namespace nacre::diagnosis

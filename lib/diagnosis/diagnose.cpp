@@ -164,6 +164,18 @@ Cautions cautions_of(const Observations& observations, const Diagnosis& diagnosi
   return cautions;
 }
 
+/// Replicates that differ along a column which no effect is about are no scatter: nothing is green over them.
+Decision judged_along_columns(Decision decision, const std::vector<measurement::SpecimenRecord>& specimens,
+                              const Procedure& rules) {
+  if (decision.verdict != Verdict::base_sufficient && decision.verdict != Verdict::insufficient) return decision;
+  const DataSummary data = summary_of_data(specimens, rules.noise);
+  const ConditionTrend* trend = trend_along_a_further_column(data, rules.levels.unexplained);
+  if (trend == nullptr) return decision;
+  decision.verdict = Verdict::unexplained;
+  decision.finding = {.reason = Reason::further_column, .along = trend->condition};
+  return decision;
+}
+
 }  // namespace
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
@@ -177,7 +189,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   };
   const Evidence evidence = gather_evidence(data_of(specimens, settings), settings);
   const Observations& observations = evidence.observations;
-  const Decision decision = decide(evidence);
+  const Decision decision = judged_along_columns(decide(evidence), specimens, settings.procedure);
 
   Diagnosis diagnosis;
   describe(diagnosis, evidence, decision);

@@ -47,6 +47,8 @@ enum class Reason {
   free_form,            ///< named: the data depend on the strain rate, and no law of it fits
   carried_part,         ///< named: one explains the part of the data that carries it; elsewhere residuals stay
   nothing_visible,      ///< insufficient: no effect of usual size would have been visible
+  further_column,       ///< unexplained: only a column that no effect is about goes with the data
+  room_is_left,         ///< insufficient: stiffness may change with a condition by more than matters
 };
 
 /// Why it was decided so.
@@ -56,9 +58,11 @@ struct Finding {
   double value = 0.0;      ///< residuals_stay: share of chi squared that they take away; at_bound: size in the
                            ///< effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
                            ///< chance of a misfit as large as that of the nearest law; carried_part: residuals of the
-                           ///< feature that misfits most elsewhere, in standard deviations
+                           ///< feature that misfits most elsewhere, in standard deviations; room_is_left: largest
+                           ///< change of stiffness
   double needed = 0.0;     ///< weak_signal, discrepancy: of a name
-  std::string along = {};  ///< contrast, condition: which; carried_part: the feature that misfits most elsewhere
+  std::string along = {};  ///< contrast, condition, further_column, room_is_left: which; carried_part: the feature that
+                           ///< misfits most elsewhere
   std::vector<Feature> carriers = {};  ///< carried_part: features of the part
 };
 
@@ -166,11 +170,11 @@ struct NextExperiment {
   tester::TestConditions conditions;
   int replicates = 3;
   tester::Loading loading = {};
+  std::optional<double> hold_s = {};  ///< of a modulus that is left after a hold; the rate is that of such a pull
   measurement::Surroundings surroundings = {};
   std::vector<std::string> machines = {};  ///< two: each piece on both; none: not noted in the data
   std::string reason;
 };
-  std::optional<double> hold_s = {};  ///< of a modulus that is left after a hold; the rate is that of such a pull
 
 /// One feature of one group of specimens as the report shows it.
 struct ResidualRow {
@@ -232,7 +236,7 @@ struct RowsOf {
 
 /// What limits the worth of a verdict.
 struct Cautions {
-  std::vector<OtherMaterial> other_materials;  ///< that are none of the inks by their own specimens
+  std::vector<OtherMaterial> other_materials;  ///< that are none of the inks
   std::vector<ModulusAtBound> at_bounds;       ///< of the model that was decided for
   std::vector<std::string> out_of_line;        ///< groups whose replicates do not agree: "modulus of LAYOUT"
   std::vector<tester::TestKind> unreplicated;  ///< tests without replicates: a scatter is assumed

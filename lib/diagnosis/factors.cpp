@@ -10,6 +10,7 @@
 #include "base/statistics.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/misfit.hpp"
+#include "diagnosis/scatter.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -17,9 +18,9 @@ namespace {
 constexpr std::string_view kMaterial = "material";
 /// Every specimen has a place of its own in it: a trend, and no level each.
 constexpr std::string_view kPrintOrder = "print order";
-
 /// Replicates of one group may be of several: each has a level, and a group that of its pieces in the mean.
 constexpr std::string_view kBatch = "batch";
+
 /// The value of a factor as a name. Surroundings are equal within what no laboratory holds.
 std::string value_of(const Observation& group, std::string_view factor) {
   if (factor == kMaterial) return group.material();
@@ -125,15 +126,14 @@ Eigen::VectorXd trend_over_order(const Observations& observations) {
   Eigen::VectorXd order = Eigen::VectorXd::Zero(observations.size());
   double last = 1.0;
   for (int i = 0; i < observations.size(); ++i) {
-    if (observations.rows[i].kind != RowKind::mean) continue;
     if (observations.rows[i].kind == RowKind::print_order) order[i] = 1.0;
+    if (observations.rows[i].kind != RowKind::mean) continue;
     order[i] = observations.group_of(i).print_order;
     last = std::max(last, order[i]);
   }
   return order / last;
 }
 
-}  // namespace
 /// What the level of one batch adds to every row: of means the share of their pieces, of history what it is off by.
 Eigen::VectorXd share_of_batch(const Observations& observations, const std::string& batch) {
   Eigen::VectorXd share = Eigen::VectorXd::Zero(observations.size());
@@ -172,6 +172,7 @@ std::vector<Eigen::Index> history_of(const Observations& observations, const Dat
   return rows;
 }
 
+}  // namespace
 
 std::size_t most_values(const Observations& observations, const std::string& factor) {
   std::map<std::string, std::set<std::string>> values;
@@ -303,7 +304,6 @@ Observations with_free_exponents(Observations observations, const std::vector<st
   return observations;
 }
 
-bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors) {
 namespace {
 
 /// Of one material: rows that show its stiffness, by test.
@@ -356,6 +356,7 @@ Change largest_change_left(const Observations& observations) {
   return largest;
 }
 
+bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors) {
   return (log_rates_within_others(observations, factors).transpose() * observations.values).sum() > 0.0;
 }
 

@@ -58,6 +58,17 @@ Observations with_levels_but_rate(Observations observations, std::vector<std::st
 Observations with_free_exponents(Observations observations, const std::vector<std::string>& factors,
                                  const NoiseRules& rules);
 
+/// A relative change of stiffness from the least to the largest value of a condition.
+struct Change {
+  std::string along;
+  double size = 0.0;
+};
+
+/// The largest change of the stiffness of one homogeneous material with one condition that these data leave room for:
+/// the far end of the 90 % interval of a straight line in log E. Nothing where none was varied; what happened (batch,
+/// print order) is none.
+Change largest_change_left(const Observations& observations);
+
 /// Whether stiffness and stresses rise with the strain rate where all other factors are equal. A viscoelastic solid
 /// does not soften when it is pulled faster.
 bool rises_with_rate(const Observations& observations, const std::vector<std::string>& factors);

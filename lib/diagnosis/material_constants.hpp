@@ -16,11 +16,12 @@ struct ModulusAtBound {
   bool of_coupons = false;  ///< in homogeneous specimens, else in layouts
 };
 
-/// A base material whose homogeneous specimens measured an E outside the ranges of the inks, widened as those of a fit
-/// are (CoordinateMap).
+/// A base material whose homogeneous specimens, or blends where it has none, measured an E outside the ranges of the
+/// inks, widened as those of a fit are (CoordinateMap).
 struct OtherMaterial {
   int material = 0;         ///< index in kConstantMaterials
   double modulus_pa = 0.0;  ///< geometric mean over the groups of its specimens: E, of coupons the first slope
+  bool by_own_specimens = true;
 };
 
 }  // namespace nacre::diagnosis

@@ -11,8 +11,9 @@ namespace nacre::diagnosis {
 /// Whether homogeneous specimens of a base material tell its E.
 bool is_told_by_own_specimens(const Observations& observations, int material);
 
-/// Base materials whose E by their own specimens lies outside their range in Table A.1 (or that of `ranges`), widened
-/// two-fold: within the bounds of the search (CoordinateMap), but near enough for these to matter.
+/// Base materials whose E by their own specimens, or by blends where they have none, lies outside their range in Table
+/// A.1 (or that of `ranges`), widened two-fold: within the bounds of the search (CoordinateMap), but near enough for
+/// these to matter.
 std::vector<OtherMaterial> other_materials(const Observations& observations, const material::ParameterRanges& ranges,
                                            ConstantRules rules);
 

@@ -124,6 +124,7 @@ struct Levels {
   double exclusion = 0.005;   ///< of a rival's lead: it leaves the set (decision 13)
   double discrepancy = 0.03;  ///< of a name from the discrepancy model: the aim for unmodelled causes (decision 13)
   double contrast = 0.05;     ///< family-wise, of the strongest contrast: residuals line up with it
+  double matters = 0.25;      ///< change of stiffness with a condition: no base is sufficient that leaves room for it
   static constexpr void fields(auto& field, auto& m);
 };
 

@@ -104,6 +104,7 @@ constexpr void Levels::fields(auto& field, auto& m) {
   field("exclusion", m.exclusion);
   field("discrepancy", m.discrepancy);
   field("contrast", m.contrast);
+  field("matters", m.matters);
 }
 
 constexpr void NameRules::fields(auto& field, auto& m) {
@@ -146,8 +147,8 @@ constexpr void TestRules::fields(auto& field, auto& m) {
   field("second_rate", m.second_rate);
   field("second_thickness", m.second_thickness);
   field("condition_twins", m.condition_twins);
-  field("far_apart", m.far_apart);
   field("holds_s", m.holds_s);
+  field("far_apart", m.far_apart);
   field("most_errors", m.most_errors);
   field("least_errors", m.least_errors);
   field("least_fall", m.least_fall);

@@ -67,6 +67,10 @@ std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int co
       const Worth worth = worth_of(tests[*t], bought, rules);
       if (is_better(worth, best_worth, rules.least_fall)) best = t, best_worth = worth;
     }
+    if (tests[*best].pairs[best_worth.pair].errors < rules.least_errors) {  // others told its own pairs apart
+      left.erase(best);
+      continue;
+    }
     chosen.push_back({*best, best_worth.pair});
     for (std::size_t pair = 0; pair < bought.size(); ++pair) buy(bought[pair], tests[*best], pair, rules.most_errors);
     left.erase(best);

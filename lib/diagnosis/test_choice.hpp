@@ -30,7 +30,7 @@ struct TestChoice {
 /// most, summed over the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums
 /// the squared errors of the best test of each way, none counted as more than four standard errors: predictions of
 /// tests are not better than that. Where no chance falls any more, the largest separation comes first. A test that
-/// separates no pair by a standard error is never chosen.
+/// separates no pair by a standard error is never chosen, nor one for a pair that it separates by less.
 std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count, const TestRules& rules);
 
 }  // namespace nacre::diagnosis

@@ -77,9 +77,15 @@ bool something_would_show(const Evidence& evidence) {
 Decision decided_without_effects(const Evidence& evidence, Decision decision) {
   if (evidence.p_misfit < evidence.settings.procedure.levels.unexplained)
     return unexplained(std::move(decision), evidence.singles, {.reason = Reason::no_effect_helps});
-  if (!something_would_show(evidence)) {
+  const Change left = largest_change_left(evidence.observations);
+  if (!something_would_show(evidence) && left.along.empty()) {
     decision.verdict = Verdict::insufficient;
     decision.finding.reason = Reason::nothing_visible;
+    return decision;
+  }
+  if (left.size > evidence.settings.procedure.levels.matters) {
+    decision.verdict = Verdict::insufficient;
+    decision.finding = {.reason = Reason::room_is_left, .value = left.size, .along = left.along};
     return decision;
   }
   decision.finding.reason = Reason::residuals_are_noise;

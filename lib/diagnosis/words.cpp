@@ -177,6 +177,13 @@ std::string reason_in_words(const Diagnosis& d) {
     case Reason::nothing_visible:
       return "nothing contradicts the base model, but none of the effects that act on these tests would have been "
              "visible at its usual size";
+    case Reason::further_column:
+      return fmt::format("the data change with {} beyond chance, which no known effect is about", finding.along);
+    case Reason::room_is_left:
+      return fmt::format(
+          "nothing contradicts the base model, but they leave room for a change of stiffness by {:.0f} % "
+          "with the {}",
+          100.0 * finding.value, finding.along);
     default:
       return fmt::format("{} comes nearest, but {}", in_words(finding.nearest), objection_in_words(finding));
   }
@@ -249,9 +256,11 @@ std::string other_materials_in_words(const std::vector<OtherMaterial>& materials
   std::string text;
   for (const OtherMaterial& other : materials)
     text += fmt::format(
-        " E of the {} specimens, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
+        " E of {}, {:.3g} Pa, lies outside the range of these inks (another material, another state of "
         "it, or an error of the machine): layouts are judged against what was measured.",
-        kConstantMaterials[other.material], other.modulus_pa);
+        other.by_own_specimens ? fmt::format("the {} specimens", kConstantMaterials[other.material])
+                               : fmt::format("{} by its blends", kConstantMaterials[other.material]),
+        other.modulus_pa);
   return text;
 }
 

@@ -425,6 +425,78 @@ TEST(Diagnosis, ThreeModuliTellNothingOfAModel) {
   EXPECT_FALSE(diagnosis.next_experiments.empty()) << "what would tell";
 }
 
+// Six means without replicates whose exponents are -0.01 and 0.08 +- 0.07 tell of no rate, and of none: E of one may
+// double over two decades.
+TEST(Diagnosis, ABaseIsNotSufficientWhereTheDataLeaveRoomForWhatMatters) {
+  const auto verdict_of = [](double scatter) {
+    std::vector<measurement::SpecimenRecord> means;
+    const std::array off = {0.0, 0.4, -0.2, -1.4, 0.9, 0.5};
+    for (int i = 0; i < 6; ++i) {
+      means.push_back(
+          homogeneous(std::to_string(i), i < 3 ? 0.0 : 1.0, (i < 3 ? 1e6 : 2e9) * std::exp(scatter * off[i])));
+      means.back().conditions.strain_rate_per_s = std::array{1e-2, 1e-1, 1.0}[i % 3];
+    }
+    return diagnose(means, tiny_settings());
+  };
+  const Diagnosis scattered = verdict_of(0.2), quiet = verdict_of(0.01);
+  EXPECT_EQ(to_string(scattered.verdict), "insufficient") << scattered.summary;
+  EXPECT_EQ(scattered.finding.reason, Reason::room_is_left);
+  EXPECT_EQ(scattered.finding.along, kStrainRate);
+  EXPECT_GT(scattered.finding.value, 0.5);
+  EXPECT_EQ(to_string(quiet.verdict), "base_sufficient") << quiet.summary;
+}
+
+// One material at three thicknesses: that none matters by a quarter is an answer.
+TEST(Diagnosis, ABaseIsSufficientWhereAConditionWasVariedAndNothingChanges) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  RandomStream noise(3, "test/thickness");
+  for (const double thickness_mm : {1.6, 3.2, 4.8})
+    for (int k = 0; k < 6; ++k) {
+      specimens.push_back(homogeneous(std::to_string(specimens.size()), 1.0, 2e9 * std::exp(0.02 * noise.normal())));
+      specimens.back().conditions.thickness_mm = thickness_mm;
+    }
+  EXPECT_EQ(to_string(diagnose(specimens, tiny_settings()).verdict), "base_sufficient");
+  for (std::size_t k = 0; k < specimens.size(); ++k) specimens[k].conditions.thickness_mm = 3.2;
+  EXPECT_EQ(to_string(diagnose(specimens, tiny_settings()).verdict), "insufficient") << "nothing was varied";
+}
+
+// Nobody knows a law of it, but replicates that follow it are no scatter.
+TEST(Diagnosis, ATrendAlongAFurtherColumnIsSaidAndNothingIsGreen) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  RandomStream noise(3, "test/layer height");
+  for (const double rate : {1e-3, 1e-1})
+    for (const double height_mm : {0.05, 0.1, 0.2, 0.3})
+      for (int k = 0; k < 3; ++k) {
+        specimens.push_back(homogeneous(std::to_string(specimens.size()), 1.0,
+                                        2e9 * (1.0 - 0.9 * height_mm) * std::exp(0.02 * noise.normal())));
+        specimens.back().conditions.strain_rate_per_s = rate;
+        specimens.back().other_columns["layer_height_mm"] = std::to_string(height_mm);
+      }
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.finding.along, "layer_height_mm");
+}
+
+// Blends of an ink that has no specimen of its own: it may be another one, and the rate is what changes.
+TEST(Diagnosis, BlendsTellTheRangesOfMaterialsWithoutSpecimens) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  RandomStream noise(3, "test/blends");
+  for (const double rate : {1e-3, 1e-2, 1e-1})
+    for (const double share : {0.75, 1.0})
+      for (int k = 0; k < 4; ++k) {
+        const double e_pa = share == 1.0 ? 1.9e9 : 2e8;  // of an interface of 2e7 Pa
+        specimens.push_back(homogeneous(std::to_string(specimens.size()), share,
+                                        e_pa * std::pow(rate / 1e-3, 0.08) * std::exp(0.02 * noise.normal())));
+        specimens.back().conditions.strain_rate_per_s = rate;
+      }
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects.front().family, "rate");
+  ASSERT_EQ(diagnosis.cautions.other_materials.size(), 1u);
+  EXPECT_EQ(kConstantMaterials[diagnosis.cautions.other_materials[0].material], "interface");
+}
+
 // Does the rate matter? Two rates with replicates answer that, either way.
 TEST(Diagnosis, TwoRatesTellWhetherTheRateMatters) {
   for (const double faster : {1.0, 1.3}) {

@@ -24,10 +24,12 @@ TEST(Words, EveryReasonHasASentenceOfItsOwn) {
                                      summary_of(decided_by(Verdict::named, two_effects)),
                                      summary_of(decided_by(Verdict::ambiguous, one_effect)),
                                      summary_of(decided_by(Verdict::ambiguous, other_material))};
-  for (const Reason reason :
-       {no_effect_helps, residuals_stay, at_bound, weak_signal, contrast, condition, discrepancy, worse_unseen})
+  for (const Reason reason : {no_effect_helps, residuals_stay, at_bound, weak_signal, contrast, condition, discrepancy,
+                              worse_unseen, further_column})
     sentences.insert(summary_of(decided_by(Verdict::unexplained, reason)));
-  EXPECT_EQ(sentences.size(), 13u);
+  for (const Reason reason : {nothing_visible, room_is_left})
+    sentences.insert(summary_of(decided_by(Verdict::insufficient, reason)));
+  EXPECT_EQ(sentences.size(), 16u);
 }
 
 TEST(Words, ACautionIsSaidWhereItMatters) {
