@@ -93,10 +93,11 @@ std::string in_words(const Separated& separated) {
 
 std::string in_words(const UntoldMaterial& untold) {
   return fmt::format(
-      "homogeneous {} specimens: layouts want an E of {:.3g} Pa, theirs would tell another material from an effect "
+      "homogeneous {} specimens: {} want an E of {:.3g} Pa, theirs would tell another material from an effect "
       "that "
       "the model lacks",
-      kConstantMaterials[untold.modulus.material], untold.modulus.modulus_pa);
+      kConstantMaterials[untold.modulus.material], untold.modulus.of_coupons ? "blends" : "layouts",
+      untold.modulus.modulus_pa);
 }
 
 std::string bundle_in_words(const PossibleTest& test) {

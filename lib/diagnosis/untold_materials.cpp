@@ -35,9 +35,20 @@ std::optional<FittedModel> base_of_other_materials(const Evidence& evidence,
   return fit;
 }
 
+/// Base materials of which blends alone want an E beyond the ranges, where the base fits with it.
+std::vector<ModulusAtBound> told_by_blends(const Evidence& evidence) {
+  const Procedure& rules = evidence.settings.procedure;
+  std::vector<ModulusAtBound> moduli;
+  if (evidence.p_misfit < rules.levels.unexplained) return moduli;
+  for (const OtherMaterial& other : other_materials(evidence.observations, evidence.settings.ranges, rules.constants))
+    if (!other.by_own_specimens) moduli.push_back({other.material, other.modulus_pa, true});
+  return moduli;
+}
+
 }  // namespace
 
 std::vector<ModulusAtBound> untold_materials(const Evidence& evidence) {
+  if (std::vector<ModulusAtBound> of_blends = told_by_blends(evidence); !of_blends.empty()) return of_blends;
   std::vector<ModulusAtBound> moduli = untold_moduli_at_bounds(evidence);
   if (moduli.empty()) return {};
   const std::optional<FittedModel> fit = base_of_other_materials(evidence, moduli);

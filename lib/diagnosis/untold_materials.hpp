@@ -7,8 +7,8 @@
 
 namespace nacre::diagnosis {
 
-/// Base materials whose E only layouts tell and which those want beyond the bounds of the search, with E as they want
-/// it. None where the base misfits with such constants too.
+/// Base materials whose E only layouts or blends tell and which those want beyond their ranges, with E as they want it.
+/// None where the base misfits with such constants too.
 std::vector<ModulusAtBound> untold_materials(const Evidence& evidence);
 
 }  // namespace nacre::diagnosis

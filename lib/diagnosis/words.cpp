@@ -156,7 +156,7 @@ std::string reason_in_words(const Diagnosis& d) {
       return "no single effect explains the data, these together do";
     case Reason::other_material:
       return fmt::format(
-          "the base model fits with {}, beyond three times the range of these inks: it is another material, which "
+          "the base model fits with {}, beyond the range of these inks: it is another material, which "
           "needs "
           "ranges of its own, or an effect is missing",
           in_words(d.untold));

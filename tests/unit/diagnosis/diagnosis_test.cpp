@@ -477,6 +477,21 @@ TEST(Diagnosis, ATrendAlongAFurtherColumnIsSaidAndNothingIsGreen) {
   EXPECT_EQ(diagnosis.finding.along, "layer_height_mm");
 }
 
+// Two constants that nobody measured fit any two blends: no base is sufficient with an ink that only blends tell.
+TEST(Diagnosis, ABaseThatFitsBlendsByAnotherInkIsLeftOpen) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  RandomStream noise(3, "test/blends");
+  for (const double share : {0.6, 0.75, 1.0})
+    for (int k = 0; k < 4; ++k)
+      specimens.push_back(homogeneous(std::to_string(specimens.size()), share,
+                                      2e7 * std::pow(100.0, 2.0 * share - 1.0) * std::exp(0.02 * noise.normal())));
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "ambiguous") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.finding.reason, Reason::other_material);
+  ASSERT_FALSE(diagnosis.next_experiments.empty());
+  EXPECT_EQ(diagnosis.next_experiments.front().design, pattern::Design(pattern::Mixture{0.5}));
+}
+
 // Blends of an ink that has no specimen of its own: it may be another one, and the rate is what changes.
 TEST(Diagnosis, BlendsTellTheRangesOfMaterialsWithoutSpecimens) {
   std::vector<measurement::SpecimenRecord> specimens;
