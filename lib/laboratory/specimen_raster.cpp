@@ -345,9 +345,10 @@ std::array<double, 3> power_law_factors(const HiddenEffects& effects, const Maki
 Constants tested_constants(const Truth& truth, const Making& making) {
   const HiddenEffects& effects = truth.effects;
   Constants constants = as_laid(constants_of(truth.modulus), effects, making);
-  const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, making) *
-                     (branch_stiffness(effects.two_overstresses, effects.shorter_relaxation_s, making) +
-                      branch_stiffness(effects.two_overstresses, kLongerRelaxation * effects.shorter_relaxation_s, making) - 1.0);
+  const double all =
+      branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, making) *
+      (branch_stiffness(effects.two_overstresses, effects.shorter_relaxation_s, making) +
+       branch_stiffness(effects.two_overstresses, kLongerRelaxation * effects.shorter_relaxation_s, making) - 1.0);
   for (double& young_pa : constants.young_pa) young_pa *= all;
   constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, making);
   if (effects.rate_exponent > 0.0) {

@@ -73,15 +73,25 @@ RelaxationFunction relaxation_function(double exponent, const Extensions& extens
   return with_branches(function, {first, second}, {1.0 / time_s, 1.0 / other_s});
 }
 
+void FadingMemory::prepare(double dt_s) {
+  if (dt_s == step_s_) return;
+  step_s_ = dt_s;
+  kept_.resize(branches_.size()), passed_.resize(branches_.size());
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const double steps = function_.rates_per_s[k] * dt_s, lost = std::expm1(-steps);
+    kept_[k] = 1.0 + lost;
+    passed_[k] = function_.shares[k] * (steps > 0.0 ? -lost / steps : 1.0);
+  }
+}
+
 double FadingMemory::advance(double elastic_pa, double dt_s) {
+  prepare(dt_s);
   const double change = elastic_pa - last_pa_;
   last_pa_ = elastic_pa;
   double stress = function_.rest * elastic_pa;
   if (dt_s > 0.0) stress += function_.dashpot_s * change / dt_s;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
-    const double steps = function_.rates_per_s[k] * dt_s;
-    const double kept = std::exp(-steps), passed = steps > 0.0 ? -std::expm1(-steps) / steps : 1.0;
-    branches_[k] = kept * branches_[k] + passed * function_.shares[k] * change;
+    branches_[k] = kept_[k] * branches_[k] + passed_[k] * change;
     stress += branches_[k];
   }
   return stress;

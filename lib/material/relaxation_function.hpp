@@ -43,8 +43,12 @@ class FadingMemory {
   double advance(double elastic_pa, double dt_s);
 
  private:
+  void prepare(double dt_s);
+
   RelaxationFunction function_;
   std::vector<double> branches_;
+  double step_s_ = -1.0;               ///< that these are of: most steps are alike
+  std::vector<double> kept_, passed_;  ///< of a branch, and of what is added to it, after a step
   double last_pa_ = 0.0;
 };
 
