@@ -11,14 +11,13 @@ namespace {
 
 using tester::TestKind;
 
-/// Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: of the others the
-/// modulus gives the same information for less. Where fracture tests are simulated elsewhere, none could be predicted.
+/// Where moduli are measured too, they tell what some fracture tests would. Where fracture tests are simulated
+/// elsewhere, none could be predicted.
 std::vector<PossibleTest> tests_worth_their_cost(const Evidence& evidence, const TestRules& rules) {
   std::vector<PossibleTest> tests = possible_tests(evidence.observations, rules);
   if (evidence.settings.fractures)
     std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness; });
-  if (evidence.observations.has(TestKind::modulus))
-    std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness && !is_twin(t.way.kind); });
+  if (evidence.observations.has(TestKind::modulus)) std::erase_if(tests, is_told_by_modulus);
   return tests;
 }
 

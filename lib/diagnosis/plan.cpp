@@ -106,7 +106,7 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
   std::map<std::string, std::vector<PossibleTest>> result;
   for (const PossibleTest& test : possible_tests(observations, rules)) {
     const bool twin = is_twin(test.way.kind);
-    if (!twin && test.test == TestKind::toughness) continue;  // a modulus gives the same information for less
+    if (is_told_by_modulus(test)) continue;
     auto& tests = result[bundle_in_words(test)];
     if (!twin || tests.size() < static_cast<std::size_t>(rules.bundle)) tests.push_back(test);
   }

@@ -122,6 +122,17 @@ std::vector<PossibleTest> paused_coupons(const Observations& observations, const
   return possible;
 }
 
+/// Notched homogeneous specimens: their crack has one way to go.
+std::vector<PossibleTest> notched_specimens(const Observations& observations) {
+  std::vector<PossibleTest> possible;
+  for (const double fraction : {1.0, 0.75, 0.5, 0.0})
+    possible.push_back({.way = {AddedTest::notched},
+                        .design = pattern::Mixture{fraction},
+                        .test = TestKind::toughness,
+                        .conditions = usual_conditions(observations, TestKind::toughness)});
+  return possible;
+}
+
 /// Whether pieces of measured specimens would stand beside others that were printed in another batch or at another
 /// time: what the group owes to either shows there.
 bool is_of_other_history(const PossibleTest& test, const Observation& group) {
@@ -132,6 +143,10 @@ bool is_of_other_history(const PossibleTest& test, const Observation& group) {
 }
 
 }  // namespace
+
+bool is_told_by_modulus(const PossibleTest& test) {
+  return test.test == TestKind::toughness && test.way.kind != AddedTest::notched && !is_twin(test.way.kind);
+}
 
 bool is_twin(AddedTest kind) { return kind <= AddedTest::thinner_twin; }
 
@@ -196,6 +211,8 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, const
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
   std::ranges::move(homogeneous_coupons(observations, rules), std::back_inserter(possible));
   if (!has_layouts(observations)) std::ranges::move(paused_coupons(observations, rules), std::back_inserter(possible));
+  if (observations.has(TestKind::toughness))
+    std::ranges::move(notched_specimens(observations), std::back_inserter(possible));
   const UsualSurroundings usual = usual_surroundings(observations);
   for (PossibleTest& test : possible) test.surroundings = usual.surroundings, test.machine = usual.machine;
   std::vector<PossibleTest> of_measured = twins(observations, rules);

@@ -27,6 +27,7 @@ enum class AddedTest {
   faster_coupon,
   coupon_between_rates,
   paused_coupon,
+  notched,        ///< a homogeneous specimen
   at_other_rate,  ///< the modulus of a homogeneous specimen, as those that follow
   relaxation,     ///< after a hold
   at_other_temperature,
@@ -60,6 +61,9 @@ struct PossibleTest {
   bool is_of_measured_batch = false;       ///< further pieces of the batch that the measured ones are of, or those
 };
 
+/// Whether it is a fracture test of a layout of simple geometry, whose modulus gives the same information for less.
+bool is_told_by_modulus(const PossibleTest& test);
+
 /// Whether replicates of the test would join the group (measurement::same_conditions): homogeneous coupons are to be
 /// unloaded. Surroundings are equal within what no laboratory holds.
 bool would_join(const PossibleTest& test, const Observation& group);
@@ -80,8 +84,8 @@ UsualSurroundings usual_surroundings(const Observations& observations);
 /// Tests that a laboratory could add to these: turned twins of measured designs, other rates and half the thickness for
 /// the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
-/// hundredfold apart the middle of the gap; where no layout is among the data, coupons with pauses and moduli of
-/// homogeneous specimens (specimen_moduli.hpp). Where there are
+/// hundredfold apart the middle of the gap; beside fracture tests homogeneous specimens with a notch; where no layout
+/// is among the data, coupons with pauses and moduli of homogeneous specimens (specimen_moduli.hpp). Where there are
 /// batches they are printed in a new one, unless they differ in one condition alone from measured ones. Tests that were
 /// made already, at these conditions or within their tolerance, are left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations, const TestRules& rules);

@@ -8,10 +8,7 @@
 #include "base/parallel.hpp"
 #include "diagnosis/shared_discretisation.hpp"
 #include "diagnosis/words.hpp"
-#include "measurement/reduction.hpp"
 #include "tester/modulus.hpp"
-#include "tester/strength_field.hpp"
-#include "tester/toughness.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -28,34 +25,10 @@ material::ParameterSet parameters_for(const PossibleTest& test, const Coordinate
   return test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
 }
 
-/// Means over specimens that every model breaks alike, of the features that all show: one crack would differ from model
-/// to model by chance.
-FeatureValues mean_fracture_features(const PossibleTest& test, const material::ParameterSet& set,
-                                     tester::Fidelity fidelity, const CurveReading& reading, int specimens) {
-  if (!tester::specimens_differ(set)) specimens = 1;
-  FeatureValues sum;
-  for (int k = 0; k < specimens; ++k) {
-    const auto result = tester::test_toughness(
-        {test.design, simulated_side(set), test.conditions, fidelity, tester::kFirstPredictionSpecimen + k});
-    if (!result) return {};
-    sysid::Prediction prediction;
-    prediction.toughness_pa = result->toughness_pa;
-    prediction.curve = tester::resampled(measurement::forward_part(result->curve), reading.fracture_points);
-    const FeatureValues own = shown_features(prediction, set.extensions, reading);
-    for (std::size_t f = 0; f < kFeatureCount; ++f) {
-      if (k > 0 && !sum[f]) continue;
-      if (own[f])
-        sum[f] = sum[f].value_or(0.0) + *own[f] / specimens;
-      else
-        sum[f].reset();
-    }
-  }
-  return sum;
-}
-
 /// Predictions of a test by a model, one value per feature that it shows.
-FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set, tester::Fidelity fidelity,
-                                 const CurveReading& reading, int specimens) {
+FeatureValues predicted_features(const PossibleTest& test, const material::ParameterSet& set,
+                                 const FractureSimulation& simulation) {
+  const tester::Fidelity fidelity = simulation.fidelity;
   FeatureValues values;
   if (test.test == TestKind::modulus) {
     if (const auto result = tester::test_modulus({test.design, simulated_side(set), test.conditions, fidelity}))
@@ -63,10 +36,10 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
           std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
   } else if (test.test == TestKind::tensile) {
     const tester::Curve curve = coupon_curve(test, set, fidelity);
-    if (!curve.empty()) values = tensile_features(curve, reading);
+    if (!curve.empty()) values = tensile_features(curve, simulation.reading);
     if (!curve.empty() && test.pauses.has_pauses()) put_pauses(values, {1.0, 1.0, 1.0});  // the model has their values
   } else {
-    values = mean_fracture_features(test, set, fidelity, reading, specimens);
+    values = mean_fracture_features(test, set, simulation);
   }
   return values;
 }
@@ -74,23 +47,48 @@ FeatureValues predicted_features(const PossibleTest& test, const material::Param
 /// By test and model.
 std::vector<std::vector<FeatureValues>> predictions(const std::vector<PossibleTest>& tests,
                                                     const std::vector<Explanation>& models, const FeatureModel& model,
-                                                    tester::Fidelity fidelity, const CurveReading& reading,
-                                                    int specimens) {
+                                                    const FractureSimulation& simulation) {
   std::vector<std::vector<FeatureValues>> seen(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(tests.size() * models.size(), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),
                       m = static_cast<std::size_t>(job) % models.size();
     const FittedModel& fit = models[m].model;
     const CoordinateMap map = model.map(fit.effects);
-    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, fit.u), fidelity, reading, specimens);
+    seen[t][m] = predicted_features(tests[t], parameters_for(tests[t], map, fit.u), simulation);
   });
   return seen;
 }
 
-/// Whether E of a homogeneous coupon's material is unknown: none of it has been pulled.
+bool is_notched(const Observation& group) { return group.test == TestKind::toughness; }
+
+/// Whether E of a homogeneous specimen's material is unknown: none of it has been pulled, with a notch or without.
 bool is_of_unknown_stiffness(const Observation& added, const Observations& measured) {
-  return added.design.mixture() != nullptr &&
-         std::ranges::none_of(measured.groups, [&](const Observation& g) { return g.design == added.design; });
+  return added.design.mixture() != nullptr && std::ranges::none_of(measured.groups, [&](const Observation& g) {
+           return g.design == added.design && is_notched(g) == is_notched(added);
+         });
+}
+
+/// Of the tests of notched homogeneous specimens of which none was measured.
+SlopesOfTests slopes_of_notched(const std::vector<PossibleTest>& tests, const std::vector<Explanation>& models,
+                                const Evidence& evidence, FractureSimulation simulation) {
+  const Observations& measured = evidence.observations;
+  simulation.specimens = 1;  // of one material all break alike
+  SlopesOfTests slopes;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto is_its = [&](const Observation& g) { return is_notched(g) && g.design == tests[t].design; };
+    if (tests[t].way.kind == AddedTest::notched && std::ranges::none_of(measured.groups, is_its))
+      slopes[t].resize(models.size());
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;
+  for (const auto& [t, of_models] : slopes)
+    for (std::size_t m = 0; m < models.size(); ++m) jobs.emplace_back(t, m);
+  parallel_for(static_cast<int>(jobs.size()), [&](int job) {
+    const auto [t, m] = jobs[static_cast<std::size_t>(job)];
+    const FittedModel& fit = models[m].model;
+    slopes.at(t)[m] =
+        fracture_slopes(tests[t], evidence.model.map(fit.effects), fit.u, measured.constant_sd, simulation);
+  });
+  return slopes;
 }
 
 /// Those that are pulled on two machines.
@@ -135,8 +133,8 @@ PredictedTests::PredictedTests(const Evidence& evidence, const std::vector<Expla
     : measured_(evidence.observations) {
   const tester::Fidelity fidelity = evidence.settings.fidelity;
   const Procedure& rules = evidence.settings.procedure;
-  const auto seen =
-      predictions(tests, explanations, evidence.model, fidelity, measured_.reading, rules.tests.broken_specimens);
+  const FractureSimulation simulation{fidelity, measured_.reading, rules.tests.broken_specimens};
+  const auto seen = predictions(tests, explanations, evidence.model, simulation);
   measured_.levels.resize(0, 0);
   added_.reading = measured_.reading;
   added_.constant_sd = measured_.constant_sd;
@@ -164,14 +162,17 @@ PredictedTests::PredictedTests(const Evidence& evidence, const std::vector<Expla
   }
   const FeatureModel bench(added_, evidence.model.basis(), fidelity);
   std::vector<FittedModel> added;
+  const SlopesOfTests slopes = slopes_of_notched(tests, explanations, evidence, simulation);
   for (std::size_t m = 0; m < explanations.size(); ++m) {
     const FittedModel& model = explanations[m].model;
     added.push_back(linearised(bench, model.effects, model.u));
     for (std::size_t t = 0; t < tests.size(); ++t)
       for (const int row : rows_of_[t])
-        if (tests[t].test == TestKind::toughness) put_fracture(model, added[m], row, seen[t][m]);
+        if (tests[t].test == TestKind::toughness)
+          put_fracture(model, added[m], row, seen[t][m], slopes.contains(t) ? &slopes.at(t)[m] : nullptr);
   }
   join();
+  put_own_constants(slopes);
   if (measured_.has_shared_discretisation()) {
     joined_.discretisation_shared.conservativeResize(joined_.size(), Eigen::NoChange);
     joined_.discretisation_shared.bottomRows(added_.size()) = shared_directions(evidence, bench);
@@ -201,21 +202,49 @@ std::vector<int> PredictedTests::add_group(Observation group, const std::vector<
   return rows;
 }
 
-/// A fracture test, simulated once, with the slopes of the same layout as it was measured, or the mean measured ones.
-void PredictedTests::put_fracture(const FittedModel& model, FittedModel& predicted, int row,
-                                  const FeatureValues& seen) const {
+/// A fracture test, simulated once, with slopes of its own, those of the same design as it was measured, or the mean
+/// measured ones of layouts.
+void PredictedTests::put_fracture(const FittedModel& model, FittedModel& predicted, int row, const FeatureValues& seen,
+                                  const FractureSlopes* slopes) const {
   const DataRow& added = added_.rows[row];
   const pattern::Design& design = added_.group_of(row).design;
   predicted.predicted[row] = *value_of(seen, added.feature);
+  if (slopes != nullptr) {
+    predicted.jacobian.row(row) = slopes->by_coordinate.row(static_cast<Eigen::Index>(added.feature));
+    return;
+  }
   std::vector<int> own, all;
   for (int i = 0; i < measured_.size(); ++i) {
     const DataRow& each = measured_.rows[i];
     if (each.group < 0 || each.test != TestKind::toughness || each.feature != added.feature) continue;
-    all.push_back(i);
+    if (!is_notched_bulk(measured_.group_of(i))) all.push_back(i);
     if (measured_.group_of(i).design == design) own.push_back(i);
   }
   const std::vector<int>& like = own.empty() ? all : own;
   if (!like.empty()) predicted.jacobian.row(row) = model.jacobian(like, Eigen::all).colwise().mean();
+}
+
+/// How far constants of notched homogeneous specimens may lie from those of layouts, by the first explanation.
+void PredictedTests::put_own_constants(const SlopesOfTests& slopes) {
+  const int n = measured_.size();
+  const Eigen::MatrixXd& known = measured_.bulk_constants;
+  const bool has_known = known.rows() == n;
+  if (!has_known && slopes.empty()) return;
+  const Eigen::Index columns = has_known ? known.cols() : slopes.begin()->second.front().own_constants.cols();
+  joined_.bulk_constants = Eigen::MatrixXd::Zero(joined_.size(), columns);
+  if (has_known) joined_.bulk_constants.topRows(n) = known;
+  for (std::size_t t = 0; t < rows_of_.size(); ++t) {
+    for (const int row : rows_of_[t]) {
+      const DataRow& added = added_.rows[row];
+      if (slopes.contains(t))
+        joined_.bulk_constants.row(n + row) =
+            slopes.at(t).front().own_constants.row(static_cast<Eigen::Index>(added.feature));
+      for (int i = 0; has_known && i < n; ++i)
+        if (measured_.rows[i].group >= 0 && measured_.rows[i].test == added.test &&
+            measured_.rows[i].feature == added.feature && measured_.group_of(i).design == added_.group_of(row).design)
+          joined_.bulk_constants.row(n + row) = known.row(i);
+    }
+  }
 }
 
 /// The tests behind the measured rows, with their joint covariance.
@@ -272,6 +301,8 @@ double PredictedTests::covariance(int row, int other, const Hypothesis& hypothes
   double covariance =
       both.fixed + both.scatter +
       (shared ? joined_.discretisation_shared.row(row).dot(joined_.discretisation_shared.row(other)) : 0.0);
+  if (joined_.bulk_constants.rows() == joined_.size())
+    covariance += joined_.bulk_constants.row(row).dot(joined_.bulk_constants.row(other));
   if (hypothesis.levels.cols() > 0) covariance += hypothesis.levels.row(row).dot(hypothesis.levels.row(other));
   return covariance;
 }

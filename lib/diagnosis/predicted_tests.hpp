@@ -2,23 +2,29 @@
 // Expected growth of chi squared of a wrong model by a further test, with its constants refitted.
 
 #include <Eigen/Dense>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/explanations.hpp"
 #include "diagnosis/possible_tests.hpp"
+#include "diagnosis/simulated_fracture.hpp"
 #include "diagnosis/test_choice.hpp"
 
 namespace nacre::diagnosis {
+
+/// By test, and model.
+using SlopesOfTests = std::map<std::size_t, std::vector<FractureSlopes>>;
 
 /// Predictions by fitted models of tests that are not made yet, and the separation of the models by them.
 ///
 /// The constants of a model that is wrong are refitted once a test is made, and the discretisation error is shared by
 /// all moduli: differences of bare predictions promise several times the separation that a test gives. Slopes of moduli
-/// and coupons by the constants are computed; those of a fracture test are those of the same layout as it was measured,
-/// or the mean of the measured ones. A test under a value of a condition that was measured shares the free level of
-/// that value, as far as an explanation leaves it free; under a new value it has a level of its own.
+/// and coupons by the constants are computed; those of a fracture test are those of the same design as it was measured,
+/// or the mean of the measured ones; of homogeneous specimens they are simulated. A test under a value of a condition
+/// that was measured shares the free level of that value, as far as an explanation leaves it free; under a new value it
+/// has a level of its own.
 class PredictedTests {
  public:
   /// Simulates each test by each of the explanations, which were fitted to the observations of the evidence;
@@ -60,7 +66,9 @@ class PredictedTests {
   };
 
   std::vector<int> add_group(Observation group, const std::vector<FeatureValues>& seen);
-  void put_fracture(const FittedModel& model, FittedModel& added, int row, const FeatureValues& seen) const;
+  void put_fracture(const FittedModel& model, FittedModel& added, int row, const FeatureValues& seen,
+                    const FractureSlopes* slopes) const;
+  void put_own_constants(const SlopesOfTests& slopes);
   void join();
   Hypothesis hypothesis_of(const Explanation& explanation, FittedModel added, const NoiseRules& rules) const;
   WrongModelRefit refit(const Hypothesis& truth, const Hypothesis& wrong) const;

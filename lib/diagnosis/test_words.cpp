@@ -40,6 +40,8 @@ std::string way_in_words(const PossibleTest& test) {
       return "a further specimen at another strain rate";
     case AddedTest::relaxation:
       return fmt::format("a further specimen held at its strain for {:g} s", *hold_of(test));
+    case AddedTest::notched:
+      return "a homogeneous specimen with a notch";
     case AddedTest::paused_coupon:
       return fmt::format(
           "a homogeneous coupon pulled to 2 % strain, held for {0:g} s, unloaded to zero force and left for {0:g} s",
@@ -107,6 +109,8 @@ std::string bundle_in_words(const PossibleTest& test) {
     case AddedTest::laminate_across:
     case AddedTest::laminate_along:
       return "laminates of period 1, 2 and 5, across and along the pull";
+    case AddedTest::notched:
+      return "homogeneous specimens with a notch";
     default:
       break;
   }
