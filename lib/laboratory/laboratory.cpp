@@ -249,8 +249,22 @@ const tester::Curve& curve_of(const TrueResponse& response, int number) {
   return which == 0 ? response.curve : response.other_curves[which - 1];
 }
 
+Scatter scatter_of_piece(const Truth& truth, const Replicate& replicate) {
+  return scatter_of(truth, replicate.piece.empty() ? replicate.specimen : replicate.piece);
+}
+
+/// The response of this replicate. A machine turns, holds and goes on at strains that it records: a piece whose record
+/// is longer than its strain is pulled less far.
+Result<TrueResponse> own_response(const Truth& truth, Experiment experiment, const Result<TrueResponse>& response,
+                                  const Replicate& replicate) {
+  if (!response || experiment.test != TestKind::tensile || experiment.loading.turns.empty()) return response;
+  const double recorded = scatter_of_piece(truth, replicate).strain;
+  for (double& turn : experiment.loading.turns) turn /= recorded;
+  return respond_tensile(truth, experiment);
+}
+
 void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, const Replicate& replicate) {
-  Scatter scatter = scatter_of(truth, replicate.piece.empty() ? record.specimen : replicate.piece);
+  Scatter scatter = scatter_of_piece(truth, replicate);
   if (!replicate.piece.empty()) scatter.modulus *= reading_scatter(truth, record.specimen);
   const HiddenEffects effects = on_machine(truth.effects, replicate.on_second_machine);
   const double drift = drift_of(effects, record);
@@ -311,10 +325,11 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   if (experiment.loading.has_pauses()) record.other_columns["loading"] = tester::to_string(experiment.loading);
   if (!replicate.piece.empty()) record.other_columns["sample"] = replicate.piece;
   if (!replicate.machine.empty()) record.other_columns["machine"] = replicate.machine;
-  record.valid = response.has_value();
-  record.note = response ? response->remark : response.error().message;
-  if (!response) return record;
-  fill_in(record, truth, *response, replicate);
+  const Result<TrueResponse> own = own_response(truth, experiment, response, replicate);
+  record.valid = own.has_value();
+  record.note = own ? own->remark : own.error().message;
+  if (!own) return record;
+  fill_in(record, truth, *own, replicate);
   // A laboratory reports no value that no game can use: the specimen failed.
   if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;

@@ -235,6 +235,29 @@ TEST(RecordSpecimen, AFailedSimulationIsAnInvalidSpecimenWithANoteAndNoNumber) {
   EXPECT_FALSE(failed.modulus_pa || failed.toughness_pa || !failed.curve.empty());
 }
 
+// A testing machine knows what it records, not what the piece is strained.
+TEST(RecordSpecimen, ACouponIsTurnedAtTheStrainThatIsRecorded) {
+  const Truth truth = plain_truth();
+  for (const tester::Loading& loading :
+       {tester::Loading{{0.02, 0.005, 0.022}}, tester::Loading{{0.02}, {60.0}, 60.0}}) {
+    const Experiment experiment{.design = pattern::Mixture{1.0},
+                                .test = TestKind::tensile,
+                                .conditions = {},
+                                .fidelity = truth.fidelity,
+                                .loading = loading};
+    const auto response = respond(truth, experiment);
+    const double highest = *std::ranges::max_element(loading.turns);
+    std::set<double> stresses;
+    for (const char* name : {"a", "b", "c"}) {
+      const auto coupon = record_specimen(truth, experiment, response, {.specimen = name});
+      ASSERT_TRUE(coupon.valid) << coupon.note;
+      EXPECT_NEAR(*std::ranges::max_element(coupon.curve.strain), highest, 1e-12) << name;
+      stresses.insert(*std::ranges::max_element(coupon.curve.stress_pa));
+    }
+    EXPECT_EQ(stresses.size(), 3u) << "pieces still differ";
+  }
+}
+
 TEST(MeasureSet, WritesASetThatReadsBackAndSealsItsTruthBesideIt) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "virtual_lab_set";
   std::filesystem::remove_all(folder);
