@@ -63,10 +63,11 @@ std::optional<CrackScatter> crack_scatter(const Observations& observations, cons
   const PooledVariance simulated = variance_of_log_toughness(refined);
   const int measured_dof = observations.replicate_dof(TestKind::toughness);
   if (std::min(simulated.dof, measured_dof) < rules.enough_dof || simulated.variance <= 0.0) return std::nullopt;
+  // 1/dof each, 1/2 dof of normal deviations: those of cracks have heavier tails.
   return CrackScatter{.of_cracks = simulated.variance,
                       .of_specimens = square(observations.replicate_sd(Feature::log_tangent_30, TestKind::toughness)),
                       .growth = growth_of(surface),
-                      .error_variance = 0.5 / simulated.dof + 0.5 / measured_dof + square(rules.crack_scatter_sd)};
+                      .error_variance = 1.0 / simulated.dof + 1.0 / measured_dof + square(rules.crack_scatter_sd)};
 }
 
 void put_crack_scatter(Observations& observations, const CrackScatter& scatter) {

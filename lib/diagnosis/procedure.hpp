@@ -43,7 +43,7 @@ struct NoiseRules {
   int fewest_for_history = 6;      ///< specimens behind a change over batches or print order
   double constant_sd = 0.11;       ///< of log(E in layouts / E of its own specimens): +-20 % of Table A.2 as 90 %
   double crack_scatter_sd = 0.25;  ///< of the log of how much cracks scatter: half elements change it by -0.14 on the
-                                   ///< mean over the twelve sets of docs/studies/discretisation-floor.md, with sd 0.28
+                                   ///< mean over the twelve sets of docs/studies/discretisation-floor.md, with sd 0.21
   double piece_sd = 0.1;           ///< between pieces that were each tested under several conditions, none replicated
   double unlike_scatter = 0.01;    ///< chance below which materials of modulus tests scatter by their own replicates
   int assumed_worth = 4;           ///< degrees of freedom that an assumed scatter is worth: it may be twice as large
