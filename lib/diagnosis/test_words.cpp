@@ -96,8 +96,7 @@ std::string in_words(const Separated& separated) {
 std::string in_words(const UntoldMaterial& untold) {
   return fmt::format(
       "homogeneous {} specimens: {} want an E of {:.3g} Pa, theirs would tell another material from an effect "
-      "that "
-      "the model lacks",
+      "that the model lacks",
       kConstantMaterials[untold.modulus.material], untold.modulus.of_coupons ? "blends" : "layouts",
       untold.modulus.modulus_pa);
 }

@@ -253,14 +253,15 @@ Scatter scatter_of_piece(const Truth& truth, const Replicate& replicate) {
   return scatter_of(truth, replicate.piece.empty() ? replicate.specimen : replicate.piece);
 }
 
-/// The response of this replicate. A machine turns, holds and goes on at strains that it records: a piece whose record
-/// is longer than its strain is pulled less far.
-Result<TrueResponse> own_response(const Truth& truth, Experiment experiment, const Result<TrueResponse>& response,
-                                  const Replicate& replicate) {
-  if (!response || experiment.test != TestKind::tensile || experiment.loading.turns.empty()) return response;
+/// Of a coupon whose machine turns, holds and goes on at strains that it records: a piece whose record is longer than
+/// its strain is pulled less far. Other tests respond alike for all replicates.
+std::optional<Result<TrueResponse>> own_response(const Truth& truth, const Experiment& experiment,
+                                                 const Replicate& replicate) {
+  if (experiment.test != TestKind::tensile || experiment.loading.turns.empty()) return std::nullopt;
+  Experiment own = experiment;
   const double recorded = scatter_of_piece(truth, replicate).strain;
-  for (double& turn : experiment.loading.turns) turn /= recorded;
-  return respond_tensile(truth, experiment);
+  for (double& turn : own.loading.turns) turn /= recorded;
+  return respond_tensile(truth, own);
 }
 
 void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, const Replicate& replicate) {
@@ -325,11 +326,13 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   if (experiment.loading.has_pauses()) record.other_columns["loading"] = tester::to_string(experiment.loading);
   if (!replicate.piece.empty()) record.other_columns["sample"] = replicate.piece;
   if (!replicate.machine.empty()) record.other_columns["machine"] = replicate.machine;
-  const Result<TrueResponse> own = own_response(truth, experiment, response, replicate);
-  record.valid = own.has_value();
-  record.note = own ? own->remark : own.error().message;
-  if (!own) return record;
-  fill_in(record, truth, *own, replicate);
+  std::optional<Result<TrueResponse>> own;
+  if (response) own = own_response(truth, experiment, replicate);
+  const Result<TrueResponse>& shown = own ? *own : response;
+  record.valid = shown.has_value();
+  record.note = shown ? shown->remark : shown.error().message;
+  if (!shown) return record;
+  fill_in(record, truth, *shown, replicate);
   // A laboratory reports no value that no game can use: the specimen failed.
   if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;
