@@ -23,10 +23,12 @@ namespace {
 /// of temperature where there are several rates.
 bool says_less_than_levels(const material::Effect& law, const Observations& observations) {
   if (law.law_of == "machine" || law.law_of == "temperature") return true;
-  return most_values(observations, std::string(law.law_of)) >= law.parameters.size() + 2;
+  const std::size_t numbers = law.parameters.size() - (law.is_by_phase ? 2 : 0);
+  return most_values(observations, std::string(law.law_of)) >= numbers + 2;
 }
 
-/// Laws of a condition that these data may tell. The one of temperature shifts the rate: there must be a law of that.
+/// Laws of a condition that levels of it may be told by. The one of temperature shifts the rate: there must be a law of
+/// that.
 std::vector<std::string> laws_of(std::string_view condition, const Observations& observations,
                                  const FittedModel& decided) {
   if (condition == "machine" && !machines_are_compared(observations)) return {};
@@ -117,18 +119,21 @@ double cost_of(const FittedModel& model, const NameRules& rules) {
   return model.chi2 + rules.lead * static_cast<double>(model.effects.size());
 }
 
-/// Every one of these models with every law of a condition that explains the data so, the best first; none that costs
-/// more by what a name needs.
+/// A model, and a law that it is tried with.
+struct Trial {
+  FittedModel model;
+  std::string law;
+};
+
+/// Those of the trials that explain the data, the best first; none that costs more by what a name needs.
 std::vector<FittedModel> laws_that_fit(const Evidence& evidence, const Observations& observations,
-                                       const std::vector<FittedModel>& beside, std::string_view condition) {
+                                       const std::vector<Trial>& trials) {
   const Procedure& rules = evidence.settings.procedure;
   std::vector<FittedModel> fitting;
-  for (const FittedModel& model : beside) {
-    for (const std::string& law : laws_of(condition, observations, model)) {
-      FittedModel fit = fitted_with(evidence, observations, model, law);
-      const double p = chance_of_misfit(observations, fit, evidence.settings);
-      if (is_usable(fit, p, rules.levels.unexplained)) fitting.push_back(std::move(fit));
-    }
+  for (const auto& [model, law] : trials) {
+    FittedModel fit = fitted_with(evidence, observations, model, law);
+    const double p = chance_of_misfit(observations, fit, evidence.settings);
+    if (is_usable(fit, p, rules.levels.unexplained)) fitting.push_back(std::move(fit));
   }
   const auto cost = [&](const FittedModel& model) { return cost_of(model, rules.names); };
   std::ranges::stable_sort(fitting, {}, cost);
@@ -199,6 +204,15 @@ bool machines_are_compared(const Observations& observations) {
   return joined(tested).size() == 1;
 }
 
+std::vector<FittedModel> rate_laws_of_curves(const Evidence& evidence) {
+  const Observations& observations = evidence.observations;
+  if (has_layouts(observations) || !observations.has(tester::TestKind::tensile)) return {};
+  std::vector<Trial> trials;
+  for (const material::Effect& law : material::condition_laws())
+    if (law.law_of == kStrainRate) trials.push_back({evidence.base.fit, std::string(law.name)});
+  return laws_that_fit(evidence, observations, trials);
+}
+
 Decision with_condition_laws(const Evidence& evidence, Decision decision) {
   if (evidence.factors.empty()) return decision;
   const Procedure& rules = evidence.settings.procedure;
@@ -217,7 +231,10 @@ Decision with_condition_laws(const Evidence& evidence, Decision decision) {
     const bool stays_free = is_free && !is_rate && condition != "temperature";
     const FreeLevels free = free_beside(evidence.observations, others, stays_free);
     Observations observations = freed(evidence.observations, free, rules.noise);
-    std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, beside, condition);
+    std::vector<Trial> trials;
+    for (const FittedModel& model : beside)
+      for (const std::string& law : laws_of(condition, observations, model)) trials.push_back({model, law});
+    std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, trials);
     if (fitting.empty()) continue;
     if (std::vector<FittedModel> rivals = one_of_each_law(fitting); rivals.size() > 1) {
       decision.rivals = std::move(rivals);

@@ -36,9 +36,9 @@ std::string_view to_string(CandidateStatus status) {
   return "not_applicable";
 }
 
-bool is_told(const FittedNumber& number) {
-  constexpr double kWidest = 1.0;  // exponents of rates lie between 0 and 1
-  return number.interval_high - number.interval_low < kWidest;
+bool is_told(const FittedNumber& number, const material::DerivedNumber& derived) {
+  const double widest = derived.unit == "1" ? 1.0 : number.value;
+  return number.interval_high - number.interval_low < widest;
 }
 
 bool lines_up(const Diagnosis& diagnosis) {

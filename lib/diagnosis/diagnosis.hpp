@@ -10,6 +10,7 @@
 #include "diagnosis/features.hpp"
 #include "diagnosis/material_constants.hpp"
 #include "diagnosis/procedure.hpp"
+#include "material/extensions.hpp"
 #include "material/parameters.hpp"
 #include "material/ranges.hpp"
 #include "measurement/specimen_record.hpp"
@@ -71,8 +72,8 @@ struct FittedNumber {
   double value = 0.0, interval_low = 0.0, interval_high = 0.0;
 };
 
-/// Whether the data tell a derived number: its interval is no wider than the number may be.
-bool is_told(const FittedNumber& number);
+/// Whether the data tell a derived number: its interval is no wider than 1 or, of one with a unit, than its value.
+bool is_told(const FittedNumber& number, const material::DerivedNumber& derived);
 
 /// An effect that was named, with its size (its fitted parameter) and 90 % interval in the unit of the effect.
 struct NamedEffect {

@@ -153,7 +153,7 @@ std::vector<FittedNumber> derived_numbers(const Evidence& evidence, FittedModel 
       if (std::abs(along[j]) > kOpen * slope.norm()) variance += std::pow(along[j] / columns.singularValues()[j], 2);
     const double half =
         1.645 * student(dof_behind(evidence.observations, named.jacobian.col(first))) * std::sqrt(variance);
-    numbers.push_back({value, value - half, value + half});
+    numbers.push_back({value, std::max(0.0, value - half), value + half});  // none is negative
   }
   return numbers;
 }

@@ -227,7 +227,7 @@ FittedModel ExactRefits::without(const std::vector<bool>& held, Observations obs
 
 Gain gain_of(const Evidence& evidence, const FittedModel& decided) {
   std::vector<FittedModel> models = evidence.singles;
-  if (decided.effects.size() > 1) models.push_back(decided);
+  if (std::ranges::find(models, decided.effects, &FittedModel::effects) == models.end()) models.push_back(decided);
   return held_out_gain(evidence.observations, evidence.base.fit,
                        {.models = std::move(models), .least_drop = drop_needed(evidence)}, decided.effects,
                        evidence.settings.procedure.gain, evidence.settings.seed);

@@ -24,9 +24,10 @@ ordered_json parameters_of(const NamedEffect& e, const material::Effect& effect)
   ordered_json json = ordered_json::object();
   for (std::size_t p = 0; p < e.derived.size(); ++p) {
     const FittedNumber& number = e.derived[p];
-    if (is_told(number))
-      json[std::string(effect.derived[p].name)] = {
-          {"value", number.value}, {"unit", "1"}, {"interval90", {number.interval_low, number.interval_high}}};
+    const material::DerivedNumber& derived = effect.derived[p];
+    if (is_told(number, derived))
+      json[std::string(derived.name)] = {
+          {"value", number.value}, {"unit", derived.unit}, {"interval90", {number.interval_low, number.interval_high}}};
   }
   return json;
 }

@@ -153,6 +153,15 @@ Decision decided_by_a_part(const Evidence& evidence, Decision decision) {
   return decision;
 }
 
+/// Curves of coupons show how a material forgets, at one rate too: a law of that which is none of the library may
+/// explain what its effects do not. The decision as it is where none does.
+Decision decided_by_rate_laws(const Evidence& evidence, Decision decision) {
+  std::vector<FittedModel> laws = rate_laws_of_curves(evidence);
+  if (laws.empty()) return decision;
+  decision.partial.reset();
+  return settled(evidence, std::move(decision), std::move(laws), Reason::one_effect);
+}
+
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -233,6 +242,8 @@ Decision decide(const Evidence& evidence) {
   decision.loudest_part = loudest_part(plain(evidence).base_draws, plain(evidence).base_statistics);
   decision = decided_among_effects(evidence, std::move(decision));
   if (decision.finding.reason == Reason::residuals_stay) decision = decided_by_a_part(evidence, std::move(decision));
+  if (decision.verdict == Verdict::unexplained && evidence.factors.empty())
+    decision = decided_by_rate_laws(evidence, std::move(decision));
   if (!evidence.factors.empty())
     decision = with_condition_laws(evidence, decided_with_factors(evidence, std::move(decision)));
   if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;

@@ -61,8 +61,8 @@ std::string size_in_words(const NamedEffect& e, const std::vector<std::string>& 
   if (!e.derived.empty()) {
     std::vector<std::string> told;
     for (std::size_t p = 0; p < e.derived.size(); ++p)
-      if (is_told(e.derived[p]))
-        told.push_back(fmt::format("{} {}", effect.derived[p].meaning, with_interval(e.derived[p], "1")));
+      if (const material::DerivedNumber& derived = effect.derived[p]; is_told(e.derived[p], derived))
+        told.push_back(fmt::format("{} {}", derived.meaning, with_interval(e.derived[p], derived.unit)));
     return fmt::format("{}, {}", material::effect_in_words(e.name), fmt::join(told, ", "));
   }
   std::string words = fmt::format("{} = {}", material::effect_in_words(e.name),

@@ -38,6 +38,18 @@ constexpr std::array kRateProny = {
     EffectParameter{"overstress by the second branch", "1", 0.0, 4.0},
     EffectParameter{"relaxation time of the second branch over that of the first", "1", 0.0, 1e5, Strength::scale,
                     3.0}};
+constexpr std::array kRateByPhase = {
+    EffectParameter{"overstress of an instantaneous stretch of the soft phase over its relaxed stress", "1", 0.0, 4.0},
+    EffectParameter{"time in which the overstress relaxes", "s", 0.0, 1e4, Strength::scale, 1e-2},
+    EffectParameter{"overstress of the interface over that of the soft phase", "1", 0.0, 2.0},
+    EffectParameter{"overstress of the rigid phase over that of the soft phase", "1", 0.0, 2.0}};
+constexpr std::array kOverstresses = {
+    DerivedNumber{"soft_overstress", "overstress of the soft phase", [](std::span<const double> p) { return p[0]; }},
+    DerivedNumber{"interface_overstress", "overstress of the interface",
+                  [](std::span<const double> p) { return p[0] * p[2]; }},
+    DerivedNumber{"rigid_overstress", "overstress of the rigid phase",
+                  [](std::span<const double> p) { return p[0] * p[3]; }},
+    DerivedNumber{"relaxation_time", "relaxation time", [](std::span<const double> p) { return p[1]; }, "s"}};
 constexpr std::array kTemperatureShift = {
     EffectParameter{"decades of the strain rate that one degree at 23 C is worth", "1/K", 0.0, 0.5},
     EffectParameter{"degrees below 23 C at which the shift has its pole (Williams, Landel, Ferry)", "K", 0.0, 1e4,
@@ -97,6 +109,11 @@ constexpr Effect form(Effect one, std::string_view form_of, std::string_view for
   return one;
 }
 
+constexpr Effect by_phase(Effect one) {
+  one.is_by_phase = true;
+  return one;
+}
+
 constexpr Effect law_of(std::string_view condition, Effect one) {
   one.law_of = condition;
   return one;
@@ -125,10 +142,10 @@ constexpr std::array kLibrary = {
                 "All materials are stiffer the faster they are pulled (a Maxwell branch); seen at a second strain "
                 "rate."),
          "", "maxwell"),
-    form(effect("rate_power_law", "rate", EffectSide::material, kRatePowerLaw, kElastic,
-                "Each phase is stiffer by a power of the strain rate, over decades; seen at three rates, in several "
-                "blends."),
-         "rate_dependence", "power_law", kExponents),
+    by_phase(form(effect("rate_power_law", "rate", EffectSide::material, kRatePowerLaw, kElastic,
+                         "Each phase is stiffer by a power of the strain rate, over decades; seen at three rates, in "
+                         "several blends."),
+                  "rate_dependence", "power_law", kExponents)),
     effect("blend_law", "blends", EffectSide::material, kBlendLaw, kElastic,
            "Homogeneous blends are stiffer or softer than the mixture law between the three materials says."),
     effect("progressive_damage", "failure", EffectSide::material, kProgressiveDamage, kLargeStrain,
@@ -159,6 +176,11 @@ constexpr std::array kConditionLaws = {
                                       "All materials are stiffer the faster they are pulled, by two relaxation times "
                                       "(a Prony series)."),
                                "rate_dependence", "prony")),
+    law_of("strain rate",
+           by_phase(form(effect("rate_by_phase", "rate", EffectSide::material, kRateByPhase, kElastic,
+                                "Each phase is stiffer by an overstress of its own the faster it is pulled; all relax "
+                                "in one time (a Maxwell branch each)."),
+                         "rate_dependence", "maxwell_by_phase", kOverstresses))),
     law_of("machine",
            one_for_each("machine",
                         form(effect("compliance_of_one_machine", "measurement", EffectSide::measurement,

@@ -46,6 +46,7 @@ struct DerivedNumber {
   std::string_view name;  ///< in files
   std::string_view meaning;
   double (*of)(std::span<const double> parameters) = nullptr;
+  std::string_view unit = "1";
 };
 
 /// A named extension of the model. `family` groups effects whose signatures may be collinear in one set of data.
@@ -65,6 +66,7 @@ struct Effect {
   /// Where its one parameter has a value for each of several: "material" (homogeneous ones, by name) or "machine" (but
   /// for the first, by name).
   std::string_view one_for_each = {};
+  bool is_by_phase = false;  ///< its last two parameters are those of interface and rigid phase over the first
   /// Parameter of a value in Extensions.
   const EffectParameter& parameter(std::size_t index) const {
     return one_for_each.empty() ? parameters[index] : parameters.front();

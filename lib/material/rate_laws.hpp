@@ -5,12 +5,15 @@
 //
 //   rate_power_law  E of each phase times (rate/6.17e-4)^n: a broad spectrum of relaxation times over some decades
 //                   (Ferry, Viscoelastic Properties of Polymers, 1980)
+//   rate_by_phase   E of each phase times 1 + a Maxwell branch of its own overstress, all of one time; overstresses of
+//                   blends between two phases are interpolated
 //   rate_prony      E of all phases times 1 + two Maxwell branches (rate_stiffening), each with a time of its own
 //
 // A pull measures the chord between e1 = 0.05 and e2 = 0.25 % of the stress that the relaxation function G builds up,
 // rate times the integral of G. A power of the rate belongs to G(t) = E (6.17e-4 t)^-n c(n) with
 // c(n) = (1 - n)(e2 - e1)/(e2^(1 - n) - e1^(1 - n)).
 
+#include "material/extended_law.hpp"
 #include "material/mixture.hpp"
 #include "material/parameters.hpp"
 
@@ -32,7 +35,14 @@ double held_power(double n, double time_s);
 /// same phases without an extension.
 Phases phases_at_rate(Phases phases, const Extensions& extensions, double strain_rate_per_s);
 
-/// Phases as a strain shows them that has been held for `time_s` after a step: relaxation functions of the same laws.
-Phases phases_held(Phases phases, const Extensions& extensions, double time_s);
+/// A homogeneous blend at a strain rate.
+Constants blend_at_rate(const Phases& phases, const Extensions& extensions, double rigid_fraction,
+                        double strain_rate_per_s);
+
+/// The same as a strain shows it that has been held for `time_s` after a step: relaxation functions of the same laws.
+Constants blend_held(const Phases& phases, const Extensions& extensions, double rigid_fraction, double time_s);
+
+/// The branch that rate_by_phase gives a blend; none without it.
+LawExtensions branch_of_blend(const Extensions& extensions, double rigid_fraction);
 
 }  // namespace nacre::material

@@ -26,7 +26,7 @@ RelaxationFunction power_of_time(double n, double scale, TimeSpan span) {
   return function;
 }
 
-/// The product with 1 + share e^(-rate t) + ..., of the branches of rate_prony.
+/// The product with 1 + share e^(-rate t) + ..., of a law's branches.
 RelaxationFunction with_branches(const RelaxationFunction& before, const std::vector<double>& shares,
                                  const std::vector<double>& rates_per_s) {
   RelaxationFunction function = before;
@@ -42,8 +42,7 @@ RelaxationFunction with_branches(const RelaxationFunction& before, const std::ve
   return function;
 }
 
-}  // namespace
-
+/// The exponent of a blend: stiffness over that of the phases grows as the rate to this power.
 double blend_exponent(const Phases& phases, const Extensions& extensions, double rigid_fraction) {
   const auto power = extensions.find("rate_power_law");
   if (power == extensions.end()) return 0.0;
@@ -51,18 +50,21 @@ double blend_exponent(const Phases& phases, const Extensions& extensions, double
   return std::log(mixture(faster, rigid_fraction).young_pa / mixture(phases, rigid_fraction).young_pa);
 }
 
+}  // namespace
+
 double RelaxationFunction::at(double time_s) const {
   double sum = rest;
   for (std::size_t k = 0; k < shares.size(); ++k) sum += shares[k] * std::exp(-rates_per_s[k] * time_s);
   return sum;
 }
 
-RelaxationFunction relaxation_function(double exponent, const Extensions& extensions, TimeSpan span) {
+RelaxationFunction relaxation_function(const Phases& phases, const Extensions& extensions, double rigid_fraction,
+                                       TimeSpan span) {
   RelaxationFunction function;
-  if (exponent > 0.0) {
-    const double n = std::min(exponent, kLargestExponent);
-    function = power_of_time(n, held_power(n, 1.0), span);
-  }
+  const double n = std::min(blend_exponent(phases, extensions, rigid_fraction), kLargestExponent);
+  if (n > 0.0) function = power_of_time(n, held_power(n, 1.0), span);
+  const LawExtensions own = branch_of_blend(extensions, rigid_fraction);
+  if (own.overstress > 0.0) function = with_branches(function, {own.overstress}, {1.0 / own.relaxation_time_s});
   const double first = extension_value(extensions, "rate_prony", 0),
                second = extension_value(extensions, "rate_prony", 2);
   if (first == 0.0) return function;

@@ -9,9 +9,6 @@
 
 namespace nacre::material {
 
-/// The exponent of a blend: stiffness over that of the phases grows as the rate to this power.
-double blend_exponent(const Phases& phases, const Extensions& extensions, double rigid_fraction);
-
 /// The shortest step and the whole time of a test, s.
 struct TimeSpan {
   double shortest_s = 0.0, longest_s = 0.0;
@@ -28,11 +25,12 @@ struct RelaxationFunction {
   double at(double time_s) const;
 };
 
-/// Of rate_power_law with this exponent, at most 0.95, and of rate_prony. The power is the trapezoidal sum, in steps
-/// h = 0.75, of t^-n = 1/Gamma(n) times the integral of e^(n x - t e^x) over x (Beylkin and Monzon, Appl. Comput.
-/// Harmon. Anal. 28, 2010, section 2): from the shortest time to the longest within 2 |Gamma(n + 2 pi i/h)| / Gamma(n),
-/// 1e-5 at n = 0.6. Its slow and fast ends are summed in closed form.
-RelaxationFunction relaxation_function(double exponent, const Extensions& extensions, TimeSpan span);
+/// Of a blend, by rate_power_law with an exponent of at most 0.95, rate_by_phase and rate_prony. The power is the
+/// trapezoidal sum, in steps h = 0.75, of t^-n = 1/Gamma(n) times the integral of e^(n x - t e^x) over x (Beylkin and
+/// Monzon, Appl. Comput. Harmon. Anal. 28, 2010, section 2): from the shortest time to the longest within 2 |Gamma(n +
+/// 2 pi i/h)| / Gamma(n), 1e-5 at n = 0.6. Its slow and fast ends are summed in closed form.
+RelaxationFunction relaxation_function(const Phases& phases, const Extensions& extensions, double rigid_fraction,
+                                       TimeSpan span);
 
 /// What is left of the stresses that a material had, step by step: exact where stress grows evenly over each.
 class FadingMemory {

@@ -222,19 +222,16 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
     }
 }
 
-}  // namespace
-
-material::Constants coupon_constants(const material::Phases& phases, const pattern::Mixture& mixture,
-                                     const material::Extensions& extensions, const TestConditions& conditions) {
-  return material::confined(material::mixture(phases, mixture.rigid_fraction),
-                            material::plane_strain_share(extensions, conditions.thickness_mm));
+/// Constants of a blend in a coupon of this thickness.
+material::Constants in_coupon(const material::Constants& blend, const material::Extensions& extensions,
+                              const TestConditions& conditions) {
+  return material::confined(blend, material::plane_strain_share(extensions, conditions.thickness_mm));
 }
 
-namespace {
-
-material::Constants bulk_constants(const material::Phases& phases, const pattern::Mixture& mixture,
-                                   const material::Extensions& extensions, const TestConditions& conditions) {
-  material::Constants constants = coupon_constants(phases, mixture, extensions, conditions);
+/// The same, by the law of blends.
+material::Constants in_elastic_coupon(const material::Constants& blend, const pattern::Mixture& mixture,
+                                      const material::Extensions& extensions, const TestConditions& conditions) {
+  material::Constants constants = in_coupon(blend, extensions, conditions);
   constants.young_pa *= material::blend_factor(extensions, mixture.rigid_fraction);
   return constants;
 }
@@ -243,15 +240,16 @@ material::Constants bulk_constants(const material::Phases& phases, const pattern
 
 material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
                                              const material::Extensions& extensions, const TestConditions& conditions) {
-  return bulk_constants(material::phases_at_rate(material::phases_of(theta), extensions, conditions.strain_rate_per_s),
-                        mixture, extensions, conditions);
+  return in_elastic_coupon(material::blend_at_rate(material::phases_of(theta), extensions, mixture.rigid_fraction,
+                                                   conditions.strain_rate_per_s),
+                           mixture, extensions, conditions);
 }
 
 material::Constants held_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
                                           const material::Extensions& extensions, const TestConditions& conditions,
                                           double time_s) {
-  return bulk_constants(material::phases_held(material::phases_of(theta), extensions, time_s), mixture, extensions,
-                        conditions);
+  return in_elastic_coupon(material::blend_held(material::phases_of(theta), extensions, mixture.rigid_fraction, time_s),
+                           mixture, extensions, conditions);
 }
 
 fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
@@ -284,7 +282,7 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
     const material::Constants constants =
         target == AssemblyTarget::modulus
             ? elastic_coupon_constants(parameters.modulus, *design.mixture(), parameters.extensions, conditions)
-            : coupon_constants(phases, *design.mixture(), parameters.extensions, conditions);
+            : in_coupon(material::mixture(phases, rigid_fraction), parameters.extensions, conditions);
     for (std::size_t e = 0; e < grid.phase.size(); ++e) {
       set_element(grid, e, constants, nearest_phase(rigid_fraction), refinement);
       if (laws.any()) set_law(grid, e, laws, rigid_fraction);

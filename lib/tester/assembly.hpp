@@ -29,10 +29,8 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
 fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
                                 AssemblyTarget target, int first, int count);
 
-/// Constants of a homogeneous coupon, with the extensions that act on them.
-material::Constants coupon_constants(const material::Phases& phases, const pattern::Mixture& mixture,
-                                     const material::Extensions& extensions, const TestConditions& conditions);
-/// The same in an elastic test of the bulk: at its strain rate, by the law of blends.
+/// Constants of a homogeneous coupon in an elastic test, with the extensions that act on them: at its strain rate, by
+/// the law of blends.
 material::Constants elastic_coupon_constants(const material::ModulusParameters& theta, const pattern::Mixture& mixture,
                                              const material::Extensions& extensions, const TestConditions& conditions);
 /// The same where a strain has been held for `time_s` after a step.

@@ -24,15 +24,14 @@ Result<CouponLaw> coupon_law(const Simulation& simulation, double pauses_s) {
         "tensile tester: {} is not homogeneous; only soft, interface, rigid and mix: are pulled as unnotched coupons",
         simulation.design.name());
   const material::ModulusParameters& modulus = simulation.parameters.modulus;
+  // Laws that its memory follows are none of its stiffness.
   material::Extensions others = simulation.parameters.extensions;
-  others.erase("rate_power_law");
-  others.erase("rate_prony");
+  for (const char* remembered : {"rate_power_law", "rate_by_phase", "rate_prony"}) others.erase(remembered);
   const material::Constants constants = elastic_coupon_constants(modulus, *mixture, others, simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
-  const double exponent =
-      material::blend_exponent(material::phases_of(modulus), simulation.parameters.extensions, mixture->rigid_fraction);
   CouponLaw coupon{.law = {.lame = lame},
-                   .relaxation = relaxation_function(exponent, simulation.parameters.extensions,
+                   .relaxation = relaxation_function(material::phases_of(modulus), simulation.parameters.extensions,
+                                                     mixture->rigid_fraction,
                                                      span_of(simulation.conditions.strain_rate_per_s, pauses_s))};
   material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
   extensions.shrinkage = 0.0;  // it shrinks freely, and is measured afterwards

@@ -45,7 +45,7 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
     if (!acts(name, values, kind)) continue;
     text += fmt::format("extension {}{}\n", name, exact_values(values));
     // The base model depends on neither rate nor thickness; of the extensions these do.
-    if (name == "rate_dependence" || name == "rate_power_law" || name == "rate_prony")
+    if (const material::Effect* effect = material::find_effect(name); effect != nullptr && effect->family == "rate")
       text += fmt::format("strain_rate_per_s {}\n", exact(simulation.conditions.strain_rate_per_s));
     if (name == "plane_strain") text += fmt::format("thickness_mm {}\n", exact(simulation.conditions.thickness_mm));
   }

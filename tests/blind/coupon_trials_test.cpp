@@ -105,6 +105,28 @@ TEST(BlindCouponTrials, PausesTellAViscousMaterialFromAPlasticOne) {
   EXPECT_EQ(run_trial(laboratory(56, "", ""), paused, "tiny").diagnosis["verdict"], "base_sufficient");
 }
 
+// No effect of the library relaxes so: a law of the strain rate beyond them does.
+TEST(BlindCouponTrials, HowTheSoftPhaseRelaxesAloneIsToldFromCurves) {
+  const auto at_two_rates = [](std::uint64_t) {
+    std::vector<laboratory::Experiment> experiments;
+    for (const double fraction : {0.0, 0.25, 0.5, 1.0})
+      for (const double rate_per_s : {1e-3, 1e-1})
+        experiments.push_back({.design = pattern::Mixture{fraction},
+                               .test = tester::TestKind::tensile,
+                               .conditions = {.strain_rate_per_s = rate_per_s},
+                               .loading = {{0.02, 0.005, 0.022}}});
+    return experiments;
+  };
+  const OpenedTrial trial = run_trial(laboratory(57, "soft_rate_dependence", "[0.8, 4]"), at_two_rates, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  const auto& effect = trial.diagnosis["effects"][0];
+  EXPECT_EQ(effect["name"], "rate_dependence");
+  EXPECT_EQ(effect["form"], "maxwell_by_phase");
+  EXPECT_NEAR(effect["parameters"]["soft_overstress"]["value"].get<double>(), 0.8, 0.04);
+  EXPECT_NEAR(effect["parameters"]["relaxation_time"]["value"].get<double>(), 4.0, 0.4);
+  EXPECT_LT(effect["parameters"]["rigid_overstress"]["interval90"][1].get<double>(), 0.05);
+}
+
 // Alone neither explains the curves: slack lies before the specimen carries, flow at its end.
 TEST(BlindCouponTrials, SlackAndFlowAtOnceAreBothNamed) {
   const OpenedTrial trial = run_trial(

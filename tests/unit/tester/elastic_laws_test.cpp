@@ -43,6 +43,31 @@ TEST(RateProny, AddsTwoRelaxationTimes) {
   EXPECT_NEAR(modulus_at(rigid, law, 1e-2) / relaxed, 1.0 + branch(0.5, 0.1) + branch(0.3, 10.0), 1e-9);
 }
 
+// Between soft phase and interface a blend takes up a mean of their overstresses, and no other phase any.
+TEST(RateByPhase, EveryPhaseHasItsOverstress) {
+  const Extensions law = {{"rate_by_phase", {0.8, 5.0, 0.5, 0.0}}};
+  for (const auto& [share, overstress] : {std::pair{0.0, 0.8}, {0.25, 0.6}, {0.5, 0.4}, {0.75, 0.2}, {1.0, 0.0}}) {
+    const pattern::Design design = pattern::Mixture{share};
+    const double relaxed = modulus_at(design, {}, 1.0);
+    EXPECT_NEAR(modulus_at(design, law, 1e3) / relaxed, 1.0 + overstress, 1e-4);
+    EXPECT_NEAR(modulus_at(design, law, 1e-8) / relaxed, 1.0, 1e-2);
+  }
+  const pattern::Design layout = *pattern::design_from_word("577fffe9fffdef");
+  const double grown = modulus_at(layout, law, 1e3) / modulus_at(layout, {}, 1.0);
+  EXPECT_GT(grown, 1.0);
+  EXPECT_LT(grown, 1.8);
+}
+
+// Of equal overstresses it is rate_dependence.
+TEST(RateByPhase, OfAllPhasesAlikeIsOneMaxwellBranch) {
+  for (const pattern::Design& design :
+       {*pattern::design_from_word("577fffe9fffdef"), pattern::Design(pattern::Mixture{0.3})}) {
+    EXPECT_NEAR(modulus_at(design, {{"rate_by_phase", {0.8, 5.0, 1.0, 1.0}}}, 1e-3) /
+                    modulus_at(design, {{"rate_dependence", {0.8, 5.0}}}, 1e-3),
+                1.0, 1e-9);
+  }
+}
+
 // Between the exponents of its phases lies that of a layout; equal exponents are one factor.
 TEST(RatePowerLaw, ActsInLayoutsThroughTheirPhases) {
   const pattern::Design layout = *pattern::design_from_word("577fffe9fffdef");
@@ -76,6 +101,7 @@ TEST(RelaxationModulus, OfEveryLawIntegratesToTheChordOfAPull) {
   constexpr int kIntervals = 2000;
   const Extensions laws[] = {{{"rate_dependence", {0.6, 2.0}}},
                              {{"rate_power_law", {0.4, 0.5, 0.1}}},
+                             {{"rate_by_phase", {0.6, 2.0, 0.5, 0.2}}},
                              {{"rate_prony", {0.5, 0.1, 0.3, 100.0}}}};
   for (const Extensions& law : laws) {
     for (const double share : {0.0, 0.25, 1.0}) {

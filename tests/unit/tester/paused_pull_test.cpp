@@ -69,6 +69,15 @@ TEST_P(PowerOfTime, RecoversWithoutForce) {
   EXPECT_GT(left_after(1e6), 0.0);
 }
 
+// The rigid phase here: the second number of its two.
+TEST(PausedPull, ABranchByPhaseRelaxesAsOneOfAll) {
+  const Loading loading{{0.02}, {6.0}, 40.0};
+  const PausedPull one = paused({{"rate_by_phase", {0.8, 4.0, 1.0, 0.5}}}, loading),
+                   all = paused({{"rate_dependence", {0.4, 4.0}}}, loading);
+  EXPECT_NEAR(*one.held_stress_pa / one.turn_stress_pa, *all.held_stress_pa / all.turn_stress_pa, 1e-4);
+  EXPECT_NEAR(*one.dwelled_strain, *all.dwelled_strain, 2e-5);
+}
+
 TEST(PausedPull, TwoBranchesRelaxWithTheirTimes) {
   constexpr double kFirst = 0.8, kTau = 0.05, kSecond = 0.5, kTimes = 200.0, kStrain = 1e-4, kRampS = kStrain / 1e-2;
   const PausedPull one = paused({{"rate_prony", {kFirst, kTau, kSecond, kTimes}}}, {{kStrain}, {0.1}});
