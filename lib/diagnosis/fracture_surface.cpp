@@ -90,7 +90,7 @@ double FractureSurface::covariance(const Kernel& kernel, const SurfacePoint& a, 
     const auto amplitude = kernel.effect.find(effect);
     if (other == b.effects.end() || amplitude == kernel.effect.end()) continue;
     sum += square(amplitude->second) * effect_covariance(x, other->second, rules_) *
-           (1.0 - rules_.own_share + rules_.own_share * near);
+           (1.0 - kernel.own_share + kernel.own_share * near);
   }
   return sum;
 }
@@ -106,8 +106,8 @@ Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const s
   return matrix;
 }
 
-/// Amplitude of every effect: root mean square over its runs of their changes beyond the base, per unit of the effect's
-/// own deviation.
+/// Amplitude of every effect: root mean square over its runs of their changes beyond the base, less what chance does,
+/// per unit of the effect's own deviation.
 void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const {
   const std::vector<int> base = base_runs();
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, base));
@@ -119,14 +119,35 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
     Eigen::VectorXd row(static_cast<Eigen::Index>(base.size()));
     for (std::size_t j = 0; j < base.size(); ++j) row[j] = covariance(learnt.kernel, points_[k], points_[base[j]]);
     const Eigen::RowVectorXd change = centred.row(static_cast<Eigen::Index>(k)) - row.transpose() * weights;
+    const double by_chance =
+        covariance(learnt.kernel, points_[k], points_[k]) + square(learnt.kernel.noise) - row.dot(factor.solve(row));
     const auto& [effect, x] = *points_[k].effects.begin();
+    const auto columns = static_cast<double>(change.size());
     auto& [sum, expected] = squares[effect];
-    sum += change.squaredNorm();
-    expected += effect_covariance(x, x, rules_) * static_cast<double>(change.size());
+    sum += change.squaredNorm() - by_chance * columns;
+    expected += effect_covariance(x, x, rules_) * columns;
   }
   for (const auto& [effect, sums] : squares)
     learnt.kernel.effect[effect] =
-        std::max(std::sqrt(sums.first / sums.second), rules_.least_amplitude * learnt.kernel.noise);
+        std::max(std::sqrt(std::max(sums.first / sums.second, 0.0)), rules_.least_amplitude * learnt.kernel.noise);
+  learnt.kernel.own_share = likeliest_share(learnt.kernel, centred);
+}
+
+double FractureSurface::likeliest_share(Kernel kernel, const Eigen::MatrixXd& targets) const {
+  double best = kernel.own_share, least = std::numeric_limits<double>::infinity();
+  for (const double share : rules_.own_shares) {
+    kernel.own_share = share;
+    const double cost = surprise(kernel, all_runs(), targets);
+    if (cost < least) least = cost, best = share;
+  }
+  return best;
+}
+
+double FractureSurface::surprise(const Kernel& kernel, const std::vector<int>& at,
+                                 const Eigen::MatrixXd& targets) const {
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(kernel, at));
+  return 0.5 * factor.matrixL().solve(targets).squaredNorm() +
+         static_cast<double>(targets.cols()) * factor.matrixLLT().diagonal().array().log().sum();
 }
 
 FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>& at,
@@ -139,15 +160,11 @@ FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>
   const auto cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
     const Posterior& own = *static_cast<Posterior*>(data);
     const Kernel kernel{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), {}};
-    const Eigen::LLT<Eigen::MatrixXd> factor(own.surface.covariance_matrix(kernel, own.at));
-    const Eigen::MatrixXd lower = factor.matrixL();
     // A weak prior about the start keeps the amplitudes that the runs do not determine.
     const EmulatorRules& rules = own.surface.rules_;
     double squares = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) squares += square((x[i] - rules.kernel[i]) / rules.kernel_sd);
-    const double prior = 0.5 * squares;
-    return prior + 0.5 * factor.matrixL().solve(own.targets).squaredNorm() +
-           static_cast<double>(own.targets.cols()) * lower.diagonal().array().log().sum();
+    return 0.5 * squares + own.surface.surprise(kernel, own.at, own.targets);
   };
   std::vector<double> x(rules_.kernel.begin(), rules_.kernel.end());
   if (at.size() >= 5) {
@@ -182,6 +199,12 @@ std::vector<int> FractureSurface::base_runs() const {
   return base;
 }
 
+std::vector<int> FractureSurface::all_runs() const {
+  std::vector<int> all(points_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 FractureSurface::Learnt FractureSurface::learn_columns(const Eigen::MatrixXd& values) const {
   Learnt learnt{.kernel = {},
                 .mean = values.colwise().mean(),
@@ -196,11 +219,9 @@ FractureSurface::Learnt FractureSurface::learn_columns(const Eigen::MatrixXd& va
   const std::vector<int> base = base_runs();
   learnt.kernel = likeliest_kernel(base, centred(base, Eigen::all));
   learn_effects(learnt, centred);
-  std::vector<int> all(points_.size());
-  std::iota(all.begin(), all.end(), 0);
-  learnt.factor.compute(covariance_matrix(learnt.kernel, all));
-  const Eigen::MatrixXd inverse = learnt.factor.solve(
-      Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
+  learnt.factor.compute(covariance_matrix(learnt.kernel, all_runs()));
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  const Eigen::MatrixXd inverse = learnt.factor.solve(Eigen::MatrixXd::Identity(count, count));
   learnt.weights = spread * (inverse * centred);
   learnt.left_out = inverse.diagonal().cwiseInverse().asDiagonal() * learnt.weights;
   const std::vector<int> near = half_nearest_to_the_centre();

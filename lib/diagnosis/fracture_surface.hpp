@@ -66,6 +66,7 @@ class FractureSurface {
   struct Kernel {
     double linear = 1.0, curved = 1.0, noise = 1.0;
     std::map<int, double> effect;  ///< amplitude by library index
+    double own_share = 0.0;        ///< of an effect's variance that depends on eta
   };
   /// Numbers of a run, columns, that have one covariance: a principal component, or what is left of every row.
   struct Learnt {
@@ -89,6 +90,11 @@ class FractureSurface {
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
   /// The most probable amplitudes given the runs of the base model; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
+  /// -log likelihood of the runs under a covariance, up to a constant.
+  double surprise(const Kernel& kernel, const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
+  /// How much of the effects depends on eta, given their amplitudes and all runs.
+  double likeliest_share(Kernel kernel, const Eigen::MatrixXd& targets) const;
+  std::vector<int> all_runs() const;
   std::vector<int> half_nearest_to_the_centre() const;
   std::vector<int> base_runs() const;
   LearntFeature learn_feature(std::vector<int> rows, const Eigen::MatrixXd& values) const;

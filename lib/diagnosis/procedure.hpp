@@ -84,7 +84,7 @@ struct EmulatorRules {
   double level_sd = 3.0;                                        ///< of a feature's level, in its spread over runs
   double curved_length = 1.0;                                   ///< of the curved part, in log units of eta
   double effect_length = 0.5;                                   ///< of an effect's part, as a share of its range
-  double own_share = 0.15;                                      ///< of an effect's variance that depends on eta
+  std::array<double, 5> own_shares{0.05, 0.2, 0.4, 0.65, 0.9};  ///< of an effect's variance that depends on eta: tried
   double no_effect = 1e-3;                                      ///< share of its range below which an effect is none
   double least_amplitude = 0.3;                                 ///< of an effect's part, in deviations of the noise
   std::array<double, 3> kernel{0.0, -1.0, -1.5};  ///< prior of the logarithms of linear part, curved part and noise

@@ -69,7 +69,7 @@ constexpr void EmulatorRules::fields(auto& field, auto& m) {
   field("level_sd", m.level_sd);
   field("curved_length", m.curved_length);
   field("effect_length", m.effect_length);
-  field("own_share", m.own_share);
+  field("own_shares", m.own_shares);
   field("no_effect", m.no_effect);
   field("least_amplitude", m.least_amplitude);
   field("kernel", m.kernel);

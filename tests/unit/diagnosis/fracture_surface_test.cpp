@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "material/extensions.hpp"
 #include "pattern/random_pattern.hpp"
 #include "sysid/eta.hpp"
 
@@ -182,6 +183,71 @@ TEST(FractureSurface, SeesAndVouchesForWhatAllLayoutsDoAlike) {
   EXPECT_GT(alike.promised / alike.error, 0.4) << "promised " << alike.promised << ", true " << alike.error;
   EXPECT_LT(alike.promised / alike.error, 5.0) << "promised " << alike.promised << ", true " << alike.error;
   EXPECT_LT(apart.promised / apart.error, 0.5) << "promised " << apart.promised << ", true " << apart.error;
+}
+
+/// Of layouts under one effect, by how much an emulator is wrong about it at a place, and how wrong it says it is.
+struct ErrorOfEffect {
+  double error = 0.0, promised = 0.0;
+};
+ErrorOfEffect error_of_effect(Expected log_toughness, const material::ParameterSet& at, bool learns_there) {
+  Broken layouts = broken_layouts(log_toughness, 60);
+  RandomStream random(8, "test/effect");
+  const auto run = [&](const material::ParameterSet& set) {
+    FractureRun run{set, {}};
+    for (int g = 0; g < kLayouts; ++g)
+      run.predictions.push_back(broken(log_toughness(g, set) + kScatter * random.normal()));
+    layouts.runs.push_back(std::move(run));
+  };
+  for (const double size : {0.005, 0.01, 0.0175, 0.025}) {
+    material::ParameterSet set = moved(random, 0.3);
+    set.extensions["blunt_notch"] = {size};
+    run(set);
+  }
+  if (learns_there) run(at);
+  const FractureSurface surface(layouts.observations, layouts.groups, layouts.runs,
+                                material::default_parameters().toughness, {});
+  const Eigen::VectorXd predicted = surface.predict(at), variance = surface.error_of_mean(at).variance();
+  ErrorOfEffect all;
+  for (std::size_t r = 0; r < surface.rows().size(); ++r) {
+    if (surface.rows()[r].feature != Feature::log_toughness) continue;
+    const auto row = static_cast<Eigen::Index>(r);
+    all.error += std::pow(predicted[row] - log_toughness(surface.rows()[r].group, at), 2) / kLayouts;
+    all.promised += variance[row] / kLayouts;
+  }
+  return all;
+}
+
+/// The centre with the damping changed by this factor and a round notch.
+material::ParameterSet blunt_at(double damping) {
+  material::ParameterSet set = material::default_parameters();
+  set.toughness.gamma_per_s *= damping;
+  set.extensions["blunt_notch"] = {0.025};
+  return set;
+}
+
+/// What the notch does, of either sign between layouts, turns with the damping.
+double turning(int layout, const material::ParameterSet& set) {
+  const double damping = std::log(set.toughness.gamma_per_s / material::default_parameters().toughness.gamma_per_s);
+  return expected(layout, set) +
+         20.0 * material::extension_value(set.extensions, "blunt_notch") * std::sin(layout + 3.0 * damping);
+}
+
+// An effect that depends on where cracks go is known where it was run, and the error elsewhere is promised.
+TEST(FractureSurface, AnEffectThatTurnsWithEtaIsKnownWhereItWasRun) {
+  const material::ParameterSet at = blunt_at(1.6);
+  const ErrorOfEffect far = error_of_effect(turning, at, false), near = error_of_effect(turning, at, true);
+  EXPECT_LT(near.error, 0.3 * far.error);
+  EXPECT_LT(std::sqrt(near.error), 1.5 * kScatter);
+  for (const ErrorOfEffect& one : {far, near}) {
+    EXPECT_GT(one.promised / one.error, 0.3) << "promised " << one.promised << ", true " << one.error;
+    EXPECT_LT(one.promised / one.error, 3.0) << "promised " << one.promised << ", true " << one.error;
+  }
+}
+
+// Four runs scatter: what chance did to single layouts is no effect.
+TEST(FractureSurface, AnEffectThatDoesNothingIsLearntAsNone) {
+  const ErrorOfEffect none = error_of_effect(expected, blunt_at(1.0), false);
+  EXPECT_LT(std::sqrt(none.error), 0.5 * kScatter);
 }
 
 }  // namespace
