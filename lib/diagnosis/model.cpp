@@ -9,6 +9,7 @@
 #include "material/surroundings_laws.hpp"
 #include "material/temperature_shift.hpp"
 #include "measurement/held_strain.hpp"
+#include "tester/coupon_law.hpp"
 #include "tester/modulus.hpp"
 #include "tester/paused_pull.hpp"
 #include "tester/relaxation.hpp"
@@ -35,6 +36,12 @@ material::ParameterSet in_surroundings(material::ParameterSet set, const Observa
   set.modulus.e_vw_pa *= factor;
   set.modulus.e_if_pa *= factor;
   return set;
+}
+
+material::Extensions measurement_side(const material::ParameterSet& set) {
+  material::Extensions own = set.extensions;
+  std::erase_if(own, [](const auto& extension) { return !material::acts_in_measurement(extension.first); });
+  return own;
 }
 
 /// The conditions that the testers simulate: the rate to which the specimen responds at its temperature.
@@ -258,14 +265,30 @@ void FeatureModel::put_constants(const material::ModulusParameters& of_layouts,
   }
 }
 
+bool FeatureModel::shows_the_same(const Observation& group, const material::ParameterSet& a,
+                                  const material::ParameterSet& b) const {
+  if (measurement_side(a) != measurement_side(b)) return false;
+  const tester::TestConditions first = simulated_conditions(group, a), second = simulated_conditions(group, b);
+  if (first.strain_rate_per_s != second.strain_rate_per_s) return false;
+  const auto before = tester::coupon_law({group.design, a, first, fidelity_}),
+             after = tester::coupon_law({group.design, b, second, fidelity_});
+  return before && after && *before == *after;
+}
+
 void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u,
-                                  Eigen::Ref<Eigen::MatrixXd> y) const {
+                                  Eigen::Ref<Eigen::MatrixXd> y, const KnownRows* near) const {
   const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
   parallel_for(groups * points, [&](int job) {
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
     const Observation& g = observations_.groups[group];
     if (g.test == TestKind::toughness || g.design.layout()) return;
-    put_group(group, in_surroundings(map.coupon_parameters(u[point]), g), y.col(static_cast<Eigen::Index>(point)));
+    const material::ParameterSet set = in_surroundings(map.coupon_parameters(u[point]), g);
+    auto rows = y.col(static_cast<Eigen::Index>(point));
+    if (near != nullptr && g.test == TestKind::tensile &&
+        shows_the_same(g, set, in_surroundings(map.coupon_parameters(near->u), g)))
+      rows(rows_of_group_[group]) = near->rows(rows_of_group_[group]);
+    else
+      put_group(group, set, rows);
   });
   parallel_for(points, [&](int p) {
     const material::ParameterSet set = map.parameters(u[p]);
@@ -300,7 +323,8 @@ Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::Vect
     points.back()[i] += steps[i];
   }
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(observations_.size(), map.size());
-  predict_others(map, points, y);
+  const KnownRows known{u, predicted};
+  predict_others(map, points, y, &known);
   const material::ParameterSet own = map.parameters(u);
   parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {
     const auto group = static_cast<std::size_t>(i);

@@ -60,9 +60,16 @@ class FeatureModel {
   void put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
   void put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
                    Eigen::Ref<Eigen::VectorXd> rows) const;
-  /// All rows at `u` but those of moduli of layouts.
-  void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u,
-                      Eigen::Ref<Eigen::MatrixXd> y) const;
+  /// Whether a pulled coupon shows the same with both.
+  bool shows_the_same(const Observation& group, const material::ParameterSet& a, const material::ParameterSet& b) const;
+  /// Coordinates whose rows are known.
+  struct KnownRows {
+    const Eigen::VectorXd& u;
+    const Eigen::VectorXd& rows;
+  };
+  /// All rows at `u` but those of moduli of layouts. Coupons that show there what they show at `near` are not pulled.
+  void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u, Eigen::Ref<Eigen::MatrixXd> y,
+                      const KnownRows* near = nullptr) const;
   void put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
   void put_constants(const material::ModulusParameters& of_layouts, const material::ModulusParameters& of_coupons,
                      Eigen::Ref<Eigen::VectorXd> rows) const;

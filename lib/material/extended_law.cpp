@@ -156,7 +156,7 @@ PointResponse respond(const Eigen::Matrix2d& h, double dt_s, const ExtendedLaw& 
   if (law.softening > 0.0) history.integrity = std::min(history.integrity, integrity_at(law, energy));
   Eigen::Matrix2d second;
   second << s[0], s[2], s[2], s[1];
-  return {.stress_pa = history.integrity * (Eigen::Matrix2d::Identity() + h) * second,
+  return {.stress_pa = history.integrity * (Eigen::Matrix2d::Identity() + h).lazyProduct(second),
           .failure_energy_j_per_m3 = energy};
 }
 

@@ -67,6 +67,7 @@ struct ExtendedLaw {
   double overstress = 0.0, relaxation_time_s = 0.0;
   double softening = 0.0;
   double tension_only = 0.0;
+  bool operator==(const ExtendedLaw&) const = default;
 };
 
 /// The law of a mixture of that rigid fraction.

@@ -13,6 +13,7 @@ namespace nacre::material {
 struct Lame {
   double mu_pa = 0.0;
   double lambda_pa = 0.0;
+  bool operator==(const Lame&) const = default;
 };
 
 /// Eqs. 2.2 and 2.3: from E (Pa, > 0) and nu (0 to 0.5) through the plane-stress equivalents E' and nu'. A small

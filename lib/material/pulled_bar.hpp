@@ -10,8 +10,7 @@ namespace nacre::material {
 /// act as the Maxwell branch does, on the second Piola-Kirchhoff stress along the bar: there is none sideways.
 class PulledBar {
  public:
-  explicit PulledBar(const ExtendedLaw& law, RelaxationFunction relaxation = {})
-      : law_(law), is_elastic_(relaxation.is_elastic()), memory_(std::move(relaxation)) {}
+  explicit PulledBar(const ExtendedLaw& law, RelaxationFunction relaxation = {});
 
   /// Stretches the bar to a nominal strain (F22 - 1 > -1) within `dt_s`, its width free; returns the nominal stress,
   /// Pa. Not finite where the law has no state, as beyond the limit of its chains.
@@ -26,7 +25,11 @@ class PulledBar {
   bool is_elastic_;  ///< the memory keeps everything
   FadingMemory memory_;
   PointHistory history_;
-  double sideways_ = 0.0, energy_ = 0.0;
+  double strain_ = 0.0, sideways_ = 0.0, energy_ = 0.0;
+  double narrowing_;            ///< d sideways / d strain over the last step
+  double strain_before_ = 0.0;  ///< where that step began
+  double bend_ = 0.0;           ///< second divided difference of sideways over the last two steps
+  double stiffness_pa_;         ///< d stress sideways / d sideways
 };
 
 }  // namespace nacre::material

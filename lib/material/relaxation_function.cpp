@@ -76,7 +76,8 @@ RelaxationFunction relaxation_function(const Phases& phases, const Extensions& e
 }
 
 void FadingMemory::prepare(double dt_s) {
-  if (dt_s == step_s_) return;
+  constexpr double kAlike = 1e-12;  // steps of equal strain differ by rounding
+  if (std::abs(dt_s - step_s_) <= kAlike * step_s_) return;
   step_s_ = dt_s;
   kept_.resize(branches_.size()), passed_.resize(branches_.size());
   for (std::size_t k = 0; k < branches_.size(); ++k) {

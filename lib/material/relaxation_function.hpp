@@ -21,6 +21,7 @@ struct RelaxationFunction {
   std::vector<double> shares = {}, rates_per_s = {};
   double dashpot_s = 0.0;  ///< stress of it: this, times the rate of the elastic stress
   bool is_elastic() const { return shares.empty(); }
+  bool operator==(const RelaxationFunction&) const = default;
   /// At a time above 0.
   double at(double time_s) const;
 };

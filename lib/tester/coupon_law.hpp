@@ -13,6 +13,7 @@ struct CouponLaw {
   material::ExtendedLaw law;
   material::RelaxationFunction relaxation = {};
   material::PulledBar bar() const { return material::PulledBar(law, relaxation); }
+  bool operator==(const CouponLaw&) const = default;
 };
 
 /// Of a coupon that is pulled at the rate of its conditions, with so long pauses. Error: an unusable simulation, or a

@@ -9,16 +9,23 @@
 namespace nacre::tester {
 namespace {
 
-/// Strain in one step of the integration along a history.
-constexpr double kStepStrain = 5e-4;
+/// Strain in one step of the integration along a history; where only the end of a step matters, in one that the width
+/// of the bar follows.
+constexpr double kStepStrain = 5e-4, kElasticStepStrain = 1e-2;
+
+/// Whether stress depends on how a strain was reached. Softening keeps the largest strain, at which a history turns.
+bool depends_on_path(const CouponLaw& law) {
+  return std::isfinite(law.law.yield_pa) || law.law.overstress > 0.0 || !law.relaxation.is_elastic();
+}
 
 Result<Curve> pull_coupon(const CouponLaw& law, double rate_per_s, const std::vector<double>& strain_history) {
   material::PulledBar coupon = law.bar();
+  const double step_strain = depends_on_path(law) ? kStepStrain : kElasticStepStrain;
   Curve curve;
   double strain = 0.0;
   for (const double target : strain_history) {
     const double way = target - strain;
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(way) / kStepStrain)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(way) / step_strain)));
     double stress_pa = 0.0;
     for (int step = 1; step <= steps; ++step) {
       stress_pa = coupon.pull(strain + way * step / steps, std::abs(way) / steps / rate_per_s);

@@ -79,6 +79,16 @@ TEST(Gent, FollowsTheUniaxialClosedForm) {
   }
 }
 
+// Steps of any size, turns, and strains that hardly differ from the last.
+TEST(PulledBar, FollowsTheWidthOfTheClosedFormWhateverItsSteps) {
+  PulledBar bar({.lame = kLame});
+  for (const double strain : {1e-9, 1e-4, 2e-4, 2e-4 + 1e-15, 0.01, 0.02, 0.015, 0.015 - 1e-12, 0.014, 0.3, 0.9, 0.2}) {
+    const UniaxialState closed = uniaxial_stress(strain, kLame);
+    EXPECT_NEAR(bar.pull(strain, 1.0), closed.nominal_stress_pa, 1e-12 * kLame.mu_pa) << strain;
+    EXPECT_NEAR(bar.sideways(), closed.lateral_stretch - 1.0, 1e-12) << strain;
+  }
+}
+
 TEST(Gent, RisesLateAndStartsAlike) {
   PulledBar base({.lame = kLame}), gent({.lame = kLame, .inverse_limit = 1.0 / 0.8});
   EXPECT_NEAR(gent.pull(1e-4, 1.0) / base.pull(1e-4, 1.0), 1.0, 3e-4);

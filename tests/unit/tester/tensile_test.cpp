@@ -65,6 +65,17 @@ TEST(Tensile, WithWeakExtensionsIsNearTheBaseCoupon) {
     EXPECT_NEAR(weak.stress_pa[i], base.stress_pa[i], 1e-6 * base.stress_pa[2]) << i;
 }
 
+// Softening keeps the largest strain, limited chains forget every one: no small steps are needed on the way.
+TEST(Tensile, ALawWithoutAPathNeedsNoSmallSteps) {
+  const material::Extensions laws = {{"soft_stiffening", {1.0}}, {"progressive_damage", {1.0}}};
+  std::vector<double> small;
+  for (int i = 1; i <= 900; ++i) small.push_back(1e-3 * std::min(i, 1200 - i));
+  const Curve followed = test_tensile(extended_coupon(0.2, laws), small).value(),
+              ends = test_tensile(extended_coupon(0.2, laws), {0.6, 0.3}).value();
+  EXPECT_NEAR(ends.stress_pa[0], followed.stress_pa[599], 1e-9 * followed.stress_pa[599]);
+  EXPECT_NEAR(ends.stress_pa[1], followed.stress_pa.back(), 1e-9 * followed.stress_pa[599]);
+}
+
 TEST(Tensile, YieldsAndKeepsASetOnUnloading) {
   const Curve curve =
       test_tensile(extended_coupon(1.0, {{"rigid_yield", {4e7}}}), {0.01, 0.03, 0.05, 0.035, 0.03}).value();
