@@ -28,24 +28,37 @@ Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix
   return scale.asDiagonal() * matrix * scale.asDiagonal();
 }
 
-/// Residuals of one data set with the anchor's coordinates integrated out, under one covariance of the noise. The prior
-/// of constants is Gaussian; that of an effect has the variance of its range, about the fit.
+/// One data set with the anchor's coordinates integrated out, under one covariance of the noise. The prior of constants
+/// is Gaussian; that of an effect has the variance of its range, about the fit.
 struct Marginal {
-  Eigen::VectorXd residual;    ///< from the middle of the prior
-  Eigen::MatrixXd covariance;  ///< of the noise and of the base's prior predictions
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the noise and of the base's prior predictions
+  Eigen::VectorXd residual;            ///< from the middle of the prior, whitened
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns) const { return factor.matrixL().solve(columns); }
 };
 
 Marginal marginal(const FittedModel& base, const NoisyData& data) {
-  Marginal result{data.values - base.predicted, data.whitener.covariance()};
+  Eigen::VectorXd residual = data.values - base.predicted;
+  Eigen::MatrixXd covariance = data.whitener.covariance();
   for (const int i : base.free) {
     const Eigen::VectorXd column = base.jacobian.col(i);
     const bool is_constant = i < base.base_count;
-    if (is_constant) result.residual -= column * (0.5 - base.u[i]);
+    if (is_constant) residual -= column * (0.5 - base.u[i]);
     const double variance =
         is_constant ? std::pow(base.prior_sd[i], 2) : std::pow(base.upper[i] - base.lower[i], 2) / 12.0;
-    result.covariance += variance * column * column.transpose();
+    covariance += variance * column * column.transpose();
   }
+  Marginal result{covariance.llt(), {}};
+  result.residual = result.whitened(residual);
   return result;
+}
+
+/// Columns whose outer products sum up to a covariance: those of its eigenvectors that are not rounding.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
+  const Eigen::VectorXd& values = parts.eigenvalues();  // rising
+  const Eigen::Index count = (values.array() > kRounding * values[values.size() - 1]).count();
+  return parts.eigenvectors().rightCols(count) * values.tail(count).cwiseSqrt().asDiagonal();
 }
 
 struct Amplitude {
@@ -53,31 +66,34 @@ struct Amplitude {
   double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without discrepancy
 };
 
-/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have several
-/// maxima.
-Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit, std::span<const double> amplitudes) {
-  Amplitude best;
-  double reference = 0.0;
+/// The most probable amplitude of a discrepancy, given the root of its covariance. All are tried: where rows of unlike
+/// scatter meet, the likelihood may have several maxima. By the Woodbury identity, since few directions make it up.
+Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& root, std::span<const double> amplitudes) {
+  const Eigen::MatrixXd directions = data.whitened(root);
+  const Eigen::MatrixXd products = directions.transpose() * directions;
+  const Eigen::VectorXd along = directions.transpose() * data.residual;
+  const auto identity = Eigen::MatrixXd::Identity(products.rows(), products.cols());
+  Amplitude best{0.0, data.residual.squaredNorm()};
   for (const double amplitude : amplitudes) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
+    const double square = amplitude * amplitude;
+    const Eigen::LLT<Eigen::MatrixXd> factor(identity + square * products);
     const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    if (amplitude == 0.0) reference = determinant;
-    const double deviance = factor.matrixL().solve(data.residual).squaredNorm() + determinant - reference;
-    if (amplitude == 0.0 || deviance < best.deviance) best = {amplitude, deviance};
+    const double deviance =
+        data.residual.squaredNorm() - square * factor.matrixL().solve(along).squaredNorm() + determinant;
+    if (deviance < best.deviance) best = {amplitude, deviance};
   }
   return best;
 }
 
 /// The least chi2 that `count` effects reach on these data, added one by one along their signatures.
 double best_chi2(const Marginal& data, const std::vector<Signature>& signatures, int count) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance);
-  Eigen::VectorXd residual = factor.matrixL().solve(data.residual);
+  Eigen::VectorXd residual = data.residual;
   std::vector<Eigen::VectorXd> taken;
   for (int step = 0; step < count; ++step) {
     double best = 0.0;
     Eigen::VectorXd along_best;
     for (const Signature& signature : signatures) {
-      const Eigen::MatrixXd whitened = factor.matrixL().solve(signature.changes);
+      const Eigen::MatrixXd whitened = data.whitened(signature.changes);
       for (Eigen::Index i = 0; i < whitened.cols(); ++i) {
         Eigen::VectorXd g = whitened.col(i);
         for (const Eigen::VectorXd& other : taken) g -= other * other.dot(g);
@@ -124,7 +140,8 @@ DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Ancho
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
   const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)),
                        Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
-  const Amplitude own = most_probable(marginal(anchor.fit, data), unit, rules.amplitudes);
+  const Eigen::MatrixXd root = root_of(unit);
+  const Amplitude own = most_probable(marginal(anchor.fit, data), root, rules.amplitudes);
   DiscrepancyTest discrepancy{own.value, own.deviance - chi2, 1.0};
   const int draws = std::min(rules.discrepancy_draws, evidence.settings.bootstraps);
   std::vector<double> leads(draws);
@@ -138,7 +155,7 @@ DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Ancho
     Eigen::VectorXd cause(observations.size());
     for (double& value : cause) value = random.normal();
     const Marginal drawn = marginal(anchor.fit, source.draw(anchor.fit.predicted + spread * cause, random));
-    leads[i] = most_probable(drawn, unit, rules.amplitudes).deviance - best_chi2(drawn, anchor.signatures, count);
+    leads[i] = most_probable(drawn, root, rules.amplitudes).deviance - best_chi2(drawn, anchor.signatures, count);
   });
   discrepancy.p = exceedance(leads, discrepancy.lead);
   return discrepancy;

@@ -23,7 +23,8 @@ Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
                                        double along_contrasts);
 
 /// Tests the best model of `count` (1 or 2) effects more than `anchor` has against a discrepancy beside the anchor;
-/// `chi2` is that of the fitted effects. Cost: a Cholesky factorisation of the rows per amplitude and draw.
+/// `chi2` is that of the fitted effects. Cost: per draw a Cholesky factorisation of the rows, and one of the
+/// directions of the discrepancy per amplitude.
 DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, const Anchor& anchor, double chi2, int count);
 
 }  // namespace nacre::diagnosis
