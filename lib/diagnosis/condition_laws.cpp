@@ -13,6 +13,7 @@
 #include "diagnosis/gain.hpp"
 #include "diagnosis/joined_sets.hpp"
 #include "diagnosis/misfit.hpp"
+#include "diagnosis/pairs.hpp"
 #include "material/effect_library.hpp"
 
 namespace nacre::diagnosis {
@@ -183,6 +184,15 @@ std::vector<FittedModel> rate_laws(const Evidence& evidence) {
   return laws;
 }
 
+/// Each of these models with each law of the strain rate that is none of the library.
+std::vector<Trial> rate_laws_beside(const std::vector<FittedModel>& models) {
+  std::vector<Trial> trials;
+  for (const FittedModel& model : models)
+    for (const material::Effect& law : material::condition_laws())
+      if (law.law_of == kStrainRate) trials.push_back({model, std::string(law.name)});
+  return trials;
+}
+
 /// Mean error on held-out specimens where levels stay free.
 double error_with_levels(const Evidence& evidence, const Decision& decision) {
   if (decision.gain) return decision.gain->held_out_error_after;
@@ -207,10 +217,12 @@ bool machines_are_compared(const Observations& observations) {
 std::vector<FittedModel> rate_laws_of_curves(const Evidence& evidence) {
   const Observations& observations = evidence.observations;
   if (has_layouts(observations) || !observations.has(tester::TestKind::tensile)) return {};
-  std::vector<Trial> trials;
-  for (const material::Effect& law : material::condition_laws())
-    if (law.law_of == kStrainRate) trials.push_back({evidence.base.fit, std::string(law.name)});
-  return laws_that_fit(evidence, observations, trials);
+  std::vector<FittedModel> fitting = laws_that_fit(evidence, observations, rate_laws_beside({evidence.base.fit}));
+  if (!fitting.empty() || !is_noticed(evidence)) return fitting;
+  std::vector<FittedModel> beside;
+  for (const std::size_t k : pair_anchors(evidence))
+    if (!have_rate_law(evidence.singles[k].effects)) beside.push_back(evidence.singles[k]);
+  return laws_that_fit(evidence, observations, rate_laws_beside(beside));
 }
 
 Decision with_condition_laws(const Evidence& evidence, Decision decision) {

@@ -19,7 +19,8 @@ bool machines_are_compared(const Observations& observations);
 Decision with_condition_laws(const Evidence& evidence, Decision decision);
 
 /// The base with each law of the strain rate by which it explains curves of homogeneous coupons without free levels,
-/// the best first; none that is worse by NameRules::lead. Nothing without such curves, or with layouts.
+/// the best first; none that is worse by NameRules::lead. Where it explains them by none, the same with the effects
+/// that pairs are built on beside the law. Nothing without such curves, or with layouts.
 std::vector<FittedModel> rate_laws_of_curves(const Evidence& evidence);
 
 }  // namespace nacre::diagnosis

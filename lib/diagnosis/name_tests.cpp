@@ -14,20 +14,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// The anchor to which one effect of a model is added: the base, or the single fit of the other effect.
-Anchor anchor_without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
-  if (model.effects.size() == 1) return evidence.base;
-  Anchor anchor;
-  anchor.fit = *std::ranges::find_if(
-      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
-  std::vector<std::string> others = evidence.effects;
-  std::erase(others, anchor.fit.effects.front());
-  anchor.signatures = signatures_on(evidence.model, anchor.fit, others, evidence.settings.procedure.fit.sizes);
-  anchor.directions = contrast_directions(evidence.observations, anchor.fit.predicted);
-  anchor.parts = parts_of_rows(evidence.observations);
-  return anchor;
-}
-
 /// Coordinates of a model without those of one of its effects.
 Eigen::VectorXd coordinates_without(const CoordinateMap& map, const FittedModel& model, std::size_t effect) {
   const int first = map.first_coordinate(effect);
@@ -36,6 +22,29 @@ Eigen::VectorXd coordinates_without(const CoordinateMap& map, const FittedModel&
   Eigen::VectorXd rest(map.size() - (end - first));
   rest << model.u.head(first), model.u.tail(map.size() - end);
   return rest;
+}
+
+/// The base with one effect: the single fit, or, of a law that is none of the single effects, one from where a model
+/// with both has it.
+FittedModel single_fit(const Evidence& evidence, const std::string& effect, const Eigen::VectorXd& start) {
+  const std::vector<std::string> name = {effect};
+  const auto known = std::ranges::find(evidence.singles, name, &FittedModel::effects);
+  if (known != evidence.singles.end()) return *known;
+  return fit_model(evidence.model, evidence.observations, evidence.settings.procedure.fit, name, start);
+}
+
+/// The anchor to which one effect of a model is added: the base, or the base with the other effect.
+Anchor anchor_without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
+  if (model.effects.size() == 1) return evidence.base;
+  Anchor anchor;
+  const CoordinateMap map = evidence.model.map(model.effects);
+  anchor.fit = single_fit(evidence, model.effects[1 - effect], coordinates_without(map, model, effect));
+  std::vector<std::string> others = evidence.effects;
+  std::erase(others, anchor.fit.effects.front());
+  anchor.signatures = signatures_on(evidence.model, anchor.fit, others, evidence.settings.procedure.fit.sizes);
+  anchor.directions = contrast_directions(evidence.observations, anchor.fit.predicted);
+  anchor.parts = parts_of_rows(evidence.observations);
+  return anchor;
 }
 
 /// Signal-to-noise ratio of the weakest effect of a model at its own constants and with its own discretisation error,

@@ -11,20 +11,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Effects that pairs are built on, the best first: alone, a collinear effect may explain more than the cause, which
-/// needs a second effect.
-std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
-  const NameRules& rules = evidence.settings.procedure.names;
-  std::vector<std::size_t> anchors(evidence.singles.size());
-  std::iota(anchors.begin(), anchors.end(), std::size_t{0});
-  std::ranges::stable_sort(anchors, {}, [&](std::size_t k) { return evidence.singles[k].chi2; });
-  const auto drop = [&](std::size_t k) { return evidence.base.fit.chi2 - evidence.singles[k].chi2; };
-  std::erase_if(anchors,
-                [&, best = drop(anchors.front())](std::size_t k) { return drop(k) < rules.pair_share * best; });
-  anchors.resize(std::min(anchors.size(), static_cast<std::size_t>(rules.pair_anchors)));
-  return anchors;
-}
-
 /// Pairs that contain a single effect, where the second effect earns its place on top of the first.
 std::vector<FittedModel> significant_pairs(const Evidence& evidence, const FittedModel& single) {
   std::vector<std::string> others;
@@ -72,6 +58,18 @@ std::vector<FittedModel> pairs_on(const Evidence& evidence, const FittedModel& s
 }
 
 }  // namespace
+
+std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
+  const NameRules& rules = evidence.settings.procedure.names;
+  std::vector<std::size_t> anchors(evidence.singles.size());
+  std::iota(anchors.begin(), anchors.end(), std::size_t{0});
+  std::ranges::stable_sort(anchors, {}, [&](std::size_t k) { return evidence.singles[k].chi2; });
+  const auto drop = [&](std::size_t k) { return evidence.base.fit.chi2 - evidence.singles[k].chi2; };
+  std::erase_if(anchors,
+                [&, best = drop(anchors.front())](std::size_t k) { return drop(k) < rules.pair_share * best; });
+  anchors.resize(std::min(anchors.size(), static_cast<std::size_t>(rules.pair_anchors)));
+  return anchors;
+}
 
 Pairs pairs_on_best(const Evidence& evidence, std::vector<PairsOnSingle> built_before) {
   Pairs found{.pairs = {}, .singles = evidence.singles, .built = std::move(built_before)};

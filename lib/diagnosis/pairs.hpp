@@ -7,6 +7,10 @@
 
 namespace nacre::diagnosis {
 
+/// Effects that pairs are built on, the best first, by their numbers among the singles, of which there is one: alone, a
+/// collinear effect may explain more than the cause, which needs a second effect.
+std::vector<std::size_t> pair_anchors(const Evidence& evidence);
+
 /// Pairs that were built on one single effect as it was fitted.
 struct PairsOnSingle {
   FittedModel single;
@@ -20,8 +24,7 @@ struct Pairs {
   bool improved = false;             ///< a single effect fits so much better that it has to be judged anew: no pairs
 };
 
-/// Pairs on the best single effects: alone, a collinear effect may explain more than the cause, which needs a second
-/// effect. What was `built` before is taken where its single effect has not changed since.
+/// Pairs on the anchors. What was `built` before is taken where its single effect has not changed since.
 Pairs pairs_on_best(const Evidence& evidence, std::vector<PairsOnSingle> built);
 
 }  // namespace nacre::diagnosis

@@ -154,12 +154,13 @@ Decision decided_by_a_part(const Evidence& evidence, Decision decision) {
 }
 
 /// Curves of coupons show how a material forgets, at one rate too: a law of that which is none of the library may
-/// explain what its effects do not. The decision as it is where none does.
+/// explain what its effects do not, by itself or beside one of them. The decision as it is where none does.
 Decision decided_by_rate_laws(const Evidence& evidence, Decision decision) {
   std::vector<FittedModel> laws = rate_laws_of_curves(evidence);
   if (laws.empty()) return decision;
   decision.partial.reset();
-  return settled(evidence, std::move(decision), std::move(laws), Reason::one_effect);
+  const Reason reason = laws.front().effects.size() > 1 ? Reason::two_effects : Reason::one_effect;
+  return settled(evidence, std::move(decision), std::move(laws), reason);
 }
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
