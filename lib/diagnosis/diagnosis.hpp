@@ -43,7 +43,7 @@ enum class Reason {
   worse_unseen,         ///< unexplained: the nearest effect predicts designs held out of the fit worse than the base
   one_effect,           ///< named or ambiguous: one explains the data
   two_effects,          ///< the same: none alone, two together
-  other_material,       ///< ambiguous: the base fits with constants of another material
+  other_material,       ///< ambiguous: the base, or an effect, explains the data with constants of another material
   factor,               ///< unexplained: free levels of factors explain the data, of which no effect is a law
   free_form,            ///< named: the data depend on the strain rate, and no law of it fits
   carried_part,         ///< named: one explains the part of the data that carries it; elsewhere residuals stay
@@ -55,7 +55,8 @@ enum class Reason {
 /// Why it was decided so.
 struct Finding {
   Reason reason = Reason::residuals_are_noise;
-  std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen: the effects that come nearest
+  std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen, and other_material: the effects that come
+                                          ///< nearest
   double value = 0.0;      ///< residuals_stay: share of chi squared that they take away; at_bound: size in the
                            ///< effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
                            ///< chance of a misfit as large as that of the nearest law; carried_part: residuals of the

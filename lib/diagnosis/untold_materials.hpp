@@ -11,4 +11,8 @@ namespace nacre::diagnosis {
 /// None where the base misfits with such constants too.
 std::vector<ModulusAtBound> untold_materials(const Evidence& evidence);
 
+/// The same of a model that explains the data with constants at the bounds of the search: its effect may be all that is
+/// missing, of other inks, or the constants make up for another one. Moduli of layouts alone.
+std::vector<ModulusAtBound> untold_materials_of(const Evidence& evidence, const FittedModel& model);
+
 }  // namespace nacre::diagnosis

@@ -235,6 +235,25 @@ Decision decided_with_factors(const Evidence& evidence, Decision decision) {
   return decision;
 }
 
+/// Neither green nor named over constants that no ink has, where specimens of these materials would tell.
+Decision judged_by_its_materials(const Evidence& evidence, Decision decision) {
+  const bool is_named = decision.verdict == Verdict::named;
+  if (decision.verdict == Verdict::ambiguous || decision.verdict == Verdict::insufficient) return decision;
+  if (decision.part) return decision;  // what misfits elsewhere moves the constants
+  decision.untold = is_named ? untold_materials_of(evidence, decision.possible.front()) : untold_materials(evidence);
+  if (decision.untold.empty()) return decision;
+  decision.finding = {.reason = Reason::other_material};
+  decision.partial.reset();
+  if (is_named) {
+    decision.finding.nearest = decision.possible.front().effects;
+    decision.partial = decision.possible.front();
+  }
+  decision.possible.clear();
+  decision.gain.reset();
+  decision.verdict = Verdict::ambiguous;
+  return decision;
+}
+
 }  // namespace
 
 Decision decide(const Evidence& evidence) {
@@ -247,13 +266,7 @@ Decision decide(const Evidence& evidence) {
     decision = decided_by_rate_laws(evidence, std::move(decision));
   if (!evidence.factors.empty())
     decision = with_condition_laws(evidence, decided_with_factors(evidence, std::move(decision)));
-  if (decision.verdict != Verdict::unexplained && decision.verdict != Verdict::base_sufficient) return decision;
-  decision.untold = untold_materials(evidence);
-  if (decision.untold.empty()) return decision;
-  decision.verdict = Verdict::ambiguous;
-  decision.partial.reset();
-  decision.finding = {.reason = Reason::other_material};
-  return decision;
+  return judged_by_its_materials(evidence, std::move(decision));
 }
 
 }  // namespace nacre::diagnosis

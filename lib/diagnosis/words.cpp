@@ -155,10 +155,14 @@ std::string reason_in_words(const Diagnosis& d) {
     case Reason::two_effects:
       return "no single effect explains the data, these together do";
     case Reason::other_material:
+      if (!finding.nearest.empty())
+        return fmt::format(
+            "{} explains these data only with {}, beyond the range of these inks: it is another material, which needs "
+            "ranges of its own, or something else is wrong",
+            in_words(finding.nearest), in_words(d.untold));
       return fmt::format(
-          "the base model fits with {}, beyond the range of these inks: it is another material, which "
-          "needs "
-          "ranges of its own, or an effect is missing",
+          "the base model fits with {}, beyond the range of these inks: it is another material, which needs ranges of "
+          "its own, or an effect is missing",
           in_words(d.untold));
     case Reason::factor:
       return fmt::format("free levels of {} explain these data, and no one law of that is told",

@@ -151,6 +151,21 @@ TEST(Diagnosis, ABaseThatFitsAtTheBoundOfTheInksAsksForSpecimensOfThatMaterial) 
   EXPECT_EQ(diagnosis.next_experiments.front().design, pattern::Design(pattern::Mixture{1.0}));
 }
 
+// An effect that explains them only with such a constant may make up for another one.
+TEST(Diagnosis, AnEffectIsNotNamedOverConstantsThatNoInkHas) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.modulus.e_tb_pa = 5.0e5;  // the bound of the search is 0.533 MPa
+  truth.extensions = {{"interface_anisotropy", {0.3}}};
+  const Diagnosis diagnosis = diagnose(synthetic_specimens({.patterns = 12, .twins = 5}, truth), tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "ambiguous") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.finding.reason, Reason::other_material);
+  EXPECT_EQ(diagnosis.finding.nearest, std::vector<std::string>{"interface_anisotropy"});
+  ASSERT_EQ(diagnosis.untold.size(), 1u) << diagnosis.summary;
+  EXPECT_NEAR(diagnosis.untold.front().modulus_pa, 5.0e5, 0.4e5);
+  ASSERT_FALSE(diagnosis.next_experiments.empty());
+  EXPECT_EQ(diagnosis.next_experiments.front().design, pattern::Design(pattern::Mixture{0.0}));
+}
+
 TEST(Diagnosis, InterfaceAnisotropyIsNamedAndTheJsonHasTheFieldsOfTheFormat) {
   const Diagnosis diagnosis = diagnose_effect("interface_anisotropy", 0.25);
   expect_named(diagnosis, "interface_anisotropy", 0.25, 0.08);

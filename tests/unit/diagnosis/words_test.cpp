@@ -29,7 +29,10 @@ TEST(Words, EveryReasonHasASentenceOfItsOwn) {
     sentences.insert(summary_of(decided_by(Verdict::unexplained, reason)));
   for (const Reason reason : {nothing_visible, room_is_left})
     sentences.insert(summary_of(decided_by(Verdict::insufficient, reason)));
-  EXPECT_EQ(sentences.size(), 16u);
+  Diagnosis of_the_base = decided_by(Verdict::ambiguous, other_material);
+  of_the_base.finding.nearest.clear();
+  sentences.insert(summary_of(of_the_base));
+  EXPECT_EQ(sentences.size(), 17u);
 }
 
 TEST(Words, ACautionIsSaidWhereItMatters) {
