@@ -55,8 +55,8 @@ enum class Reason {
 /// Why it was decided so.
 struct Finding {
   Reason reason = Reason::residuals_are_noise;
-  std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen, and other_material: the effects that come
-                                          ///< nearest
+  std::vector<std::string> nearest = {};  ///< from residuals_stay to worse_unseen, and other_material: the effects
+                                          ///< that come nearest
   double value = 0.0;      ///< residuals_stay: share of chi squared that they take away; at_bound: size in the
                            ///< effect's unit; weak_signal: SNR; discrepancy: chance; free_form:
                            ///< chance of a misfit as large as that of the nearest law; carried_part: residuals of the
