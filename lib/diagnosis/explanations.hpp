@@ -24,8 +24,8 @@ std::vector<Explanation> beside_levels_of(const Evidence& evidence, std::vector<
 /// each effect, and the base. Fewer than two: nothing is in question.
 std::vector<Explanation> explanations_to_separate(const Evidence& evidence, const Decision& decision);
 
-/// "rate power law with temperature shift", "a dependence on temperature", "rate power law beside a dependence on
-/// machine".
+/// "power-law rate dependence with temperature shift", "a dependence on temperature", "power-law rate dependence beside
+/// a dependence on machine".
 std::string in_words(const Explanation& explanation);
 
 }  // namespace nacre::diagnosis

@@ -10,6 +10,7 @@
 #include "diagnosis/fracture_plan.hpp"
 #include "diagnosis/kept_emulator.hpp"
 #include "diagnosis/words.hpp"
+#include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "runtime/farm_requests.hpp"
 #include "runtime/journal.hpp"
@@ -109,10 +110,8 @@ Fractures fractures_of(const DiagnosisTask& task, const std::vector<measurement:
 /// What the budget of simulations does not pay, as a further sentence of the summary.
 std::string unaffordable_in_words(const std::vector<std::string>& effects, int simulations) {
   if (effects.empty()) return {};
-  std::vector<std::string> names = effects;
-  for (std::string& name : names) std::ranges::replace(name, '_', ' ');
   return fmt::format(" Not weighed, since diagnosis.simulations of {} does not pay for it: {}.", simulations,
-                     fmt::join(names, ", "));
+                     material::effect_in_words(fmt::format("{}", fmt::join(effects, ", "))));
 }
 
 bool is_fracture(const measurement::SpecimenRecord& specimen) { return specimen.test == tester::TestKind::toughness; }

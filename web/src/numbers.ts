@@ -54,7 +54,13 @@ export function bytes(count: number): string {
   return count < 1e6 ? `${Math.round(count / 1e3)} kB` : `${(count / 1e6).toFixed(1)} MB`;
 }
 
-export const words = (name: string) => name.replaceAll("_", " ");
+// Forms of an effect whose names say the form alone; as in lib/material/effect_words.cpp.
+const FORMS: Record<string, string> = {
+  rate_power_law: "power-law rate dependence",
+  rate_prony: "two-branch rate dependence",
+  rate_by_phase: "rate dependence by phase",
+};
+export const words = (name: string) => FORMS[name] ?? name.replaceAll("_", " ");
 
 /** "1 specimen", "3 specimens". */
 export const counted = (count: number, noun: string) => `${count} ${noun}${count === 1 ? "" : "s"}`;

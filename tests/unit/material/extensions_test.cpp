@@ -5,6 +5,7 @@
 
 #include "material/confinement.hpp"
 #include "material/effect_library.hpp"
+#include "material/effect_words.hpp"
 #include "material/neo_hookean.hpp"
 
 namespace nacre::material {
@@ -27,6 +28,12 @@ TEST(Strength, OfNothingIsTheBaseModel) {
     EXPECT_EQ(value_at_strength(parameter, 0.0), 0.0) << effect.name;
     EXPECT_EQ(strength_of(parameter, 0.0), 0.0) << effect.name;
   }
+}
+
+TEST(EffectWords, AFormSaysWhatItIsAFormOf) {
+  EXPECT_EQ(effect_in_words("droplet_mixing"), "droplet mixing");
+  EXPECT_EQ(effect_in_words("rigid_yield with rate_by_phase"), "rigid yield with rate dependence by phase");
+  EXPECT_EQ(effect_in_words("rate_prony, rate_power_law"), "two-branch rate dependence, power-law rate dependence");
 }
 
 TEST(Limits, AreAllowedFromTheSmallestOnAndAtZero) {
