@@ -2,10 +2,11 @@
 
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
+#include <unordered_map>
 
 #include "material/blend_law.hpp"
 #include "material/confinement.hpp"
@@ -109,7 +110,18 @@ struct Element {
   double mean_fraction = 0.0;
   double share_x = 0.0, share_y = 0.0;  ///< interface between x- and y-neighbours
 
-  friend auto operator<=>(const Element&, const Element&) = default;
+  friend bool operator==(const Element&, const Element&) = default;
+};
+
+struct HashOfElement {
+  std::size_t operator()(const Element& element) const {
+    std::size_t hash = 0;
+    const auto add = [&](double value) { hash = hash * 31 + std::hash<double>()(value); };
+    for (const double fraction : element.rigid_fractions) add(fraction);
+    add(element.share_x);
+    add(element.share_y);
+    return hash;
+  }
 };
 
 Element element_at(const Composition& made, int refinement, int row, int column) {
@@ -137,7 +149,7 @@ struct LaidDown {
 
 LaidDown lay_down(const Composition& made, int refinement) {
   const int side = kElementsPerUnit * refinement;
-  std::map<Element, int> known;
+  std::unordered_map<Element, int, HashOfElement> known;
   LaidDown unit;
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column) {
@@ -193,12 +205,16 @@ material::Phases phases_for(const material::ParameterSet& parameters, AssemblyTa
                                            : material::phases_of(parameters.toughness);
 }
 
-/// Element (0, 0) of the grid is element (first, first) of a unit, and so on over the unit's edges.
-void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const material::Phases& phases,
-                   const material::Extensions& extensions, const material::LawExtensions& laws,
-                   const TestConditions& conditions, int refinement, int first) {
+material::Phases phases_of_modulus(const material::ParameterSet& parameters, const TestConditions& conditions) {
+  return material::phases_at_rate(phases_for(parameters, AssemblyTarget::modulus), parameters.extensions,
+                                  conditions.strain_rate_per_s);
+}
+
+/// Constants of each element of a unit that differs from the others.
+std::vector<material::Constants> constants_of(const LaidDown& made, const material::Phases& phases,
+                                              const material::Extensions& extensions,
+                                              const TestConditions& conditions) {
   const bool turned = conditions.orientation_deg == 90.0;
-  const LaidDown& made = laid_down(layout, extensions, refinement);
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
   const double anisotropy = turned ? -printer_anisotropy : printer_anisotropy;
   const double confinement = material::plane_strain_share(extensions, conditions.thickness_mm);
@@ -210,6 +226,15 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
     constants.back().threshold_j_per_m3 *= factor;
     constants.back() = material::confined(constants.back(), confinement);
   }
+  return constants;
+}
+
+/// Element (0, 0) of the grid is element (first, first) of a unit, and so on over the unit's edges.
+void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const material::Phases& phases,
+                   const material::Extensions& extensions, const material::LawExtensions& laws,
+                   const TestConditions& conditions, int refinement, int first) {
+  const LaidDown& made = laid_down(layout, extensions, refinement);
+  const std::vector<material::Constants> constants = constants_of(made, phases, extensions, conditions);
   const int side = kElementsPerUnit * refinement;
   const auto of_unit = [&](int i) { return (i + first + side) % side; };
   for (int row = 0; row < grid.rows; ++row)
@@ -252,6 +277,13 @@ material::Constants held_coupon_constants(const material::ModulusParameters& the
                            mixture, extensions, conditions);
 }
 
+UnitOfModulus unit_of_modulus(const pattern::Layout& layout, const material::ParameterSet& parameters,
+                              const TestConditions& conditions, int refinement) {
+  const LaidDown& made = laid_down(layout, parameters.extensions, refinement);
+  return {constants_of(made, phases_of_modulus(parameters, conditions), parameters.extensions, conditions),
+          made.element_of};
+}
+
 fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
                                 AssemblyTarget target, int first, int count) {
   assert(first >= -kElementsPerUnit && count >= 1);
@@ -264,9 +296,8 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y, int refinement) {
   assert(units_x >= 1 && units_y >= 1 && refinement >= 1);
   assert(conditions.orientation_deg == 0.0 || conditions.orientation_deg == 90.0);
-  material::Phases phases = phases_for(parameters, target);
-  if (target == AssemblyTarget::modulus)
-    phases = material::phases_at_rate(phases, parameters.extensions, conditions.strain_rate_per_s);
+  const material::Phases phases =
+      target == AssemblyTarget::modulus ? phases_of_modulus(parameters, conditions) : phases_for(parameters, target);
   const int side = kElementsPerUnit * refinement;
   fem::Grid grid = empty_grid(side * units_x, side * units_y, refinement);
   material::LawExtensions laws = laws_for(parameters.extensions, target);

@@ -2,6 +2,8 @@
 // From a design to the finite-element grid (thesis 2.3.1, Figure 2-5C): element (2i, 2j) is the centre of pixel (i, j),
 // counted from the bottom-left; an element with an odd index lies between pixels.
 
+#include <vector>
+
 #include "fem/grid.hpp"
 #include "material/mixture.hpp"
 #include "material/parameters.hpp"
@@ -22,6 +24,14 @@ enum class AssemblyTarget { modulus, toughness };
 fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters,
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y,
                    int refinement = 1);
+
+/// What the modulus tester makes of one unit of a layout: the same numbers as in assemble().
+struct UnitOfModulus {
+  std::vector<material::Constants> kinds;  ///< of elements, each once
+  std::vector<int> kind_of;                ///< of every element of the unit, row by row
+};
+UnitOfModulus unit_of_modulus(const pattern::Layout& layout, const material::ParameterSet& parameters,
+                              const TestConditions& conditions, int refinement);
 
 /// A square part of an endless specimen of a layout at usual conditions: count x count elements from element (first,
 /// first) of a unit on, first >= -kElementsPerUnit; elastic constants and thresholds alone. Same numbers as in

@@ -11,10 +11,10 @@
 namespace nacre::tester {
 namespace {
 
-fem::Grid grid_of(const Simulation& simulation, const material::ParameterSet& parameters) {
+fem::Grid grid_of(const Simulation& simulation) {
   const SpecimenUnits units = modulus_units(simulation.fidelity);
-  return assemble(simulation.design, parameters, simulation.conditions, AssemblyTarget::modulus, units.x, units.y,
-                  refinement_of(simulation.fidelity));
+  return assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::modulus, units.x,
+                  units.y, refinement_of(simulation.fidelity));
 }
 
 double at_rate(const Simulation& simulation, const material::ParameterSet& parameters) {
@@ -28,12 +28,15 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
   if (simulation.design.mixture() != nullptr) return fail("modulus probe: expected a layout");
   if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty())
     return fail("modulus probe: {}", fault);
-  const fem::Grid grid = grid_of(simulation, simulation.parameters);
+  const fem::Grid grid = grid_of(simulation);
   const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
   if (!solution) return fail("modulus probe: {}", solution.error().message);
   ModulusProbe probe;
   probe.simulation_ = simulation;
   probe.modulus_pa_ = solution->top_stress_pa / thesis::kModulusStrain * at_rate(simulation, simulation.parameters);
+  const int side = kElementsPerUnit * refinement_of(simulation.fidelity);
+  probe.shear_.assign(static_cast<std::size_t>(side * side), 0.0);
+  probe.bulk_ = probe.shear_;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       fem::ElementVector moved;
@@ -43,8 +46,9 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
           moved[2 * a + direction] = solution->displacement[2 * node + direction];
         ++a;
       }
-      probe.shear_.push_back(0.5 * moved.dot(fem::unit_stiffness().shear * moved));
-      probe.bulk_.push_back(0.5 * moved.dot(fem::unit_stiffness().bulk * moved));
+      const std::size_t place = (row % side) * side + column % side;
+      probe.shear_[place] += 0.5 * moved.dot(fem::unit_stiffness().shear * moved);
+      probe.bulk_[place] += 0.5 * moved.dot(fem::unit_stiffness().bulk * moved);
     }
   }
   probe.energy_ = probe.energy(simulation.parameters);
@@ -52,9 +56,16 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
 }
 
 double ModulusProbe::energy(const material::ParameterSet& parameters) const {
-  const std::vector<material::Lame> lame = fem::lame_of(grid_of(simulation_, parameters));
+  const UnitOfModulus unit = unit_of_modulus(*simulation_.design.layout(), parameters, simulation_.conditions,
+                                             refinement_of(simulation_.fidelity));
+  std::vector<material::Lame> lame;
+  for (const material::Constants& kind : unit.kinds)
+    lame.push_back(material::lame_from_engineering(kind.young_pa, kind.poisson));
   double sum = 0.0;
-  for (std::size_t e = 0; e < lame.size(); ++e) sum += lame[e].mu_pa * shear_[e] + lame[e].lambda_pa * bulk_[e];
+  for (std::size_t e = 0; e < unit.kind_of.size(); ++e) {
+    const material::Lame& here = lame[unit.kind_of[e]];
+    sum += here.mu_pa * shear_[e] + here.lambda_pa * bulk_[e];
+  }
   return sum * at_rate(simulation_, parameters);
 }
 

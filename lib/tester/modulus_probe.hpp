@@ -16,7 +16,8 @@ class ModulusProbe {
   /// E of test_modulus() at these parameters, Pa.
   double modulus_pa() const { return modulus_pa_; }
   /// E of the same specimen with other parameters, exact to first order in their change, never too small to second
-  /// order. The parameters must be usable (material::parameter_fault empty). Cost: an assembly.
+  /// order. The parameters must be usable (material::parameter_fault empty). Cost: the constants of
+  /// a unit's elements.
   double nearby(const material::ParameterSet& parameters) const;
 
  private:
@@ -24,7 +25,7 @@ class ModulusProbe {
 
   Simulation simulation_;
   double modulus_pa_ = 0.0, energy_ = 0.0;
-  std::vector<double> shear_, bulk_;  ///< energy of each element per Pa of mu and of lambda
+  std::vector<double> shear_, bulk_;  ///< energy of each place in the units per Pa of mu and of lambda
 };
 
 }  // namespace nacre::tester

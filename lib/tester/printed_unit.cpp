@@ -45,18 +45,28 @@ std::vector<std::vector<double>> blur_weights(double width, int parts, int reach
   return weights;
 }
 
+/// The materials of some part of a layout.
+struct Surroundings {
+  bool rigid = false, soft = false;
+  bool mixed() const { return rigid && soft; }
+};
+
 /// The layout with rigid pixels grown by `reach` pixels on every side. Pixel k is centred at coordinate k; along either
 /// axis the boundaries lie at k + low and k + high, between which the grown layout is constant.
 class GrownLayout {
  public:
   GrownLayout(const pattern::Layout& layout, double reach) {
     reach *= 1.0 + 1e-9;  // so that no two boundaries coincide
-    const double below = fraction(0.5 - reach), above = fraction(0.5 + reach);
-    low_ = std::min(below, above);
-    high_ = std::max(below, above);
+    const double under = fraction(0.5 - reach), over = fraction(0.5 + reach);
+    low_ = std::min(under, over);
+    high_ = std::max(under, over);
     for (int row = 0; row < kStrips; ++row)
       for (int column = 0; column < kStrips; ++column)
         rigid_[row * kStrips + column] = any_near(layout, middle(row), middle(column), 0.5 + reach);
+    for (int row = 0; row < kSpan; ++row)
+      for (int column = 0; column < kSpan; ++column)
+        below(row + 1, column + 1) = below(row, column + 1) + below(row + 1, column) - below(row, column) +
+                                     (rigid(row - kMargin, column - kMargin) ? 1 : 0);
   }
 
   double low() const { return low_; }
@@ -67,14 +77,24 @@ class GrownLayout {
     const double rest = coordinate - pixel;
     return 2 * pixel + (rest < low_ ? -1 : rest < high_ ? 0 : 1);
   }
-  bool rigid(int row_strip, int column_strip) const {
-    return rigid_[wrapped(row_strip, kStrips) * kStrips + wrapped(column_strip, kStrips)];
+  /// The materials of these strips, the last ones included; up to kMargin beyond the unit.
+  Surroundings within(int first_row, int last_row, int first_column, int last_column) const {
+    const int bottom = first_row + kMargin, top = last_row + kMargin + 1;
+    const int left = first_column + kMargin, right = last_column + kMargin + 1;
+    const int count = below(top, right) - below(bottom, right) - below(top, left) + below(bottom, left);
+    return {.rigid = count > 0, .soft = count < (top - bottom) * (right - left)};
   }
   static double fraction(double value) { return value - std::floor(value); }
 
  private:
-  static constexpr int kStrips = 2 * kSide;
+  static constexpr int kStrips = 2 * kSide, kMargin = 4, kSpan = kStrips + 2 * kMargin;
 
+  bool rigid(int row_strip, int column_strip) const {
+    return rigid_[wrapped(row_strip, kStrips) * kStrips + wrapped(column_strip, kStrips)];
+  }
+  /// Rigid strips below and to the left of a corner, from the margin on.
+  int& below(int row, int column) { return below_[row * (kSpan + 1) + column]; }
+  int below(int row, int column) const { return below_[row * (kSpan + 1) + column]; }
   double middle(int strip) const {
     const int pixel = strip / 2;
     return strip % 2 == 0 ? pixel + 0.5 * (low_ + high_) : pixel + 0.5 * (high_ + 1.0 + low_);
@@ -90,6 +110,7 @@ class GrownLayout {
 
   double low_ = 0.0, high_ = 0.0;
   std::array<bool, static_cast<std::size_t>(kStrips) * kStrips> rigid_{};
+  std::array<int, static_cast<std::size_t>(kSpan + 1) * (kSpan + 1)> below_{};
 };
 
 constexpr double kInterfaceReach = 0.25;  ///< half the width of the interface, pixels
@@ -126,20 +147,6 @@ std::vector<Piece> pieces_of(const GrownLayout& grown, int cell, int cells) {
   return pieces;
 }
 
-/// The materials within the interface's reach of a cell.
-struct Surroundings {
-  bool rigid = false, soft = false;
-  bool mixed() const { return rigid && soft; }
-};
-
-Surroundings surroundings(const GrownLayout& grown, int first_row, int last_row, int first_column, int last_column) {
-  Surroundings found;
-  for (int row = first_row; row <= last_row; ++row)
-    for (int column = first_column; column <= last_column; ++column)
-      (grown.rigid(row, column) ? found.rigid : found.soft) = true;
-  return found;
-}
-
 }  // namespace
 
 PrintedUnit printed_unit(const pattern::Layout& layout) {
@@ -173,11 +180,11 @@ PrintedUnit overprinted_unit(const pattern::Layout& layout, double pixels, int c
       for (const Piece& y : pieces[row])
         for (const Piece& x : pieces[column]) {
           const double area = x.share * y.share;
-          const Surroundings around = surroundings(grown, y.first, y.last, x.first, x.last);
+          const Surroundings around = grown.within(y.first, y.last, x.first, x.last);
           unit.rigid_fraction[e] += area * (around.mixed() ? 0.5 : around.rigid ? 1.0 : 0.0);
           if (!around.mixed()) continue;
-          const bool along_x = surroundings(grown, y.strip, y.strip, x.first, x.last).mixed();
-          const bool along_y = surroundings(grown, y.first, y.last, x.strip, x.strip).mixed();
+          const bool along_x = grown.within(y.strip, y.strip, x.first, x.last).mixed();
+          const bool along_y = grown.within(y.first, y.last, x.strip, x.strip).mixed();
           if (along_x && !along_y && !y.near_pixel_edge) unit.joins_x[e] += area;
           if (along_y && !along_x && !x.near_pixel_edge) unit.joins_y[e] += area;
         }
