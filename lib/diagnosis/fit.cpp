@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/bounded_least_squares.hpp"
+#include "diagnosis/local_problem.hpp"
+
 namespace nacre::diagnosis {
 namespace {
 
@@ -11,9 +14,9 @@ namespace {
 /// log E.
 constexpr double kSlopeStep = 0.01;
 
-double prior_chi2(const FittedModel& fit, const Eigen::VectorXd& u) {
-  return ((u.head(fit.base_count).array() - 0.5) / fit.prior_sd.array()).square().sum();
-}
+/// Damping of Levenberg and Marquardt, as shares of the curvature. Below the one after a failure steps are the same.
+constexpr double kFirstDamping = 1e-3, kFailedDamping = 0.01;
+constexpr int kAttempts = 6;  ///< of a step
 
 Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
   for (int i = 0; i < map.size(); ++i) u[i] = std::clamp(u[i], map.lower(i), map.upper(i));
@@ -33,18 +36,6 @@ std::vector<int> free_coordinates(const FittedModel& fit, const CoordinateMap& m
     if (!leaves && std::ranges::find(held, i) == held.end()) free.push_back(i);
   }
   return free;
-}
-
-/// Levenberg-Marquardt step over the free coordinates.
-Eigen::VectorXd damped_step(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
-                            double damping) {
-  const Eigen::MatrixXd a = fit.whitened_columns(whitener);
-  Eigen::MatrixXd normal = a.transpose() * a;
-  normal.diagonal() *= 1.0 + damping;
-  const Eigen::VectorXd step = normal.ldlt().solve(a.transpose() * fit.whitened_residual(y, whitener));
-  Eigen::VectorXd full = Eigen::VectorXd::Zero(fit.u.size());
-  full(fit.free) = step;
-  return full;
 }
 
 /// A share ends at the whole: that bound is physics, not a choice.
@@ -68,6 +59,10 @@ bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
 }
 
 }  // namespace
+
+double FittedModel::prior_chi2(const Eigen::VectorXd& at) const {
+  return ((at.head(base_count).array() - 0.5) / prior_sd.array()).square().sum();
+}
 
 void FittedModel::free_all() {
   free.resize(u.size());
@@ -141,76 +136,111 @@ FittedModel linearised(const FeatureModel& model, const std::vector<std::string>
   return fit;
 }
 
+namespace {
+
+/// Levenberg-Marquardt on the local model of what was simulated on the way.
+class Descent {
+ public:
+  Descent(const FeatureModel& model, const CoordinateMap& map, const Observations& observations,
+          const std::vector<int>& held, const Eigen::VectorXd& start, double converged)
+      : model_(model),
+        map_(map),
+        observations_(observations),
+        whitener_(observations.covariance()),
+        held_(held),
+        converged_(converged),
+        fit_(initial_fit(model, map, start)) {
+    fit_.chi2 = chi2_of(fit_.u, fit_.predicted);
+    fit_.jacobian = model.slopes(map, fit_.u, fit_.predicted, kSlopeStep);
+  }
+  /// Whether the local model promises less than matters.
+  bool is_at_end() const {
+    const LocalProblem local = local_problem();
+    return fit_.chi2 - local.chi2(local.minimum(0.0, tolerance())) < enough();
+  }
+  /// A drop of chi squared that is none: converged, and as many times that as the fit misfits.
+  double enough() const { return converged_ * std::max(1.0, fit_.chi2 / static_cast<double>(fit_.predicted.size())); }
+  /// One step, shorter until chi squared falls. Returns by how much; 0 where it does not.
+  double step() {
+    double raise = 2.0;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const LocalProblem local = local_problem();
+      const Eigen::VectorXd candidate = clamped(map_, local.minimum(damping_, tolerance()));
+      const double promised = fit_.chi2 - local.chi2(candidate);
+      if (promised < tolerance()) return 0.0;
+      const Eigen::VectorXd predicted = model_.predict(map_, candidate);
+      if (const double gained = fit_.chi2 - chi2_of(candidate, predicted); gained > 0.0) {
+        move_to(candidate, predicted, gained);
+        damping_ *= std::max(0.1, 1.0 - std::pow(2.0 * gained / promised - 1.0, 3));
+        return gained;
+      }
+      past_.push_back({candidate, predicted});
+      damping_ = std::max(kFailedDamping, damping_ * raise);
+      raise *= 2.0;
+    }
+    return 0.0;
+  }
+  FittedModel end() && {
+    fit_.free = free_coordinates(fit_, map_, observations_.values, whitener_, held_);
+    fit_.parameters = map_.parameters(fit_.u);
+    fit_.extension_on_bound = ends_on_bound(map_, fit_.u);
+    return std::move(fit_);
+  }
+
+ private:
+  double tolerance() const { return 0.1 * enough(); }
+  LocalProblem local_problem() const { return {fit_, observations_.values, whitener_, held_, past_}; }
+  double chi2_of(const Eigen::VectorXd& u, const Eigen::VectorXd& rows) const {
+    return whitener_.chi2(observations_.values - rows) + fit_.prior_chi2(u);
+  }
+  void move_to(const Eigen::VectorXd& u, const Eigen::VectorXd& rows, double gained) {
+    past_.push_back({fit_.u, fit_.predicted});
+    fit_.u = u;
+    fit_.predicted = rows;
+    fit_.chi2 -= gained;
+    fit_.jacobian = model_.slopes(map_, u, rows, kSlopeStep);
+  }
+
+  const FeatureModel& model_;
+  const CoordinateMap& map_;
+  const Observations& observations_;
+  Whitener whitener_;
+  const std::vector<int>& held_;
+  double converged_;
+  FittedModel fit_;
+  double damping_ = kFirstDamping;
+  std::vector<KnownPoint> past_;  ///< that were simulated, the latest last
+};
+
+}  // namespace
+
 FittedModel fit_model(const FeatureModel& model, const Observations& observations, const FitRules& rules,
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held) {
   const CoordinateMap map = model.map(effects);
-  const Eigen::VectorXd& y = observations.values;
-  const Whitener whitener(observations.covariance());
-  FittedModel fit = initial_fit(model, map, start);
-  fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
-  double damping = 1e-3;
-  for (int iteration = 0; iteration < rules.iterations; ++iteration) {
-    fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
-    fit.free = free_coordinates(fit, map, y, whitener, held);
-    double gained = 0.0;
-    for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
-      const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(fit, y, whitener, damping));
-      const Eigen::VectorXd predicted = model.predict(map, candidate);
-      const double chi2 = whitener.chi2(y - predicted) + prior_chi2(fit, candidate);
-      gained = fit.chi2 - chi2;
-      if (gained > 0.0) {
-        fit.u = candidate;
-        fit.predicted = predicted;
-        fit.chi2 = chi2;
-        damping = std::max(1e-6, damping / 10.0);
-      } else {
-        damping *= 10.0;
-      }
-    }
-    if (gained < rules.converged) break;
-  }
-  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kSlopeStep);
-  fit.free = free_coordinates(fit, map, y, whitener, held);
-  fit.parameters = map.parameters(fit.u);
-  fit.extension_on_bound = ends_on_bound(map, fit.u);
-  return fit;
+  Descent descent(model, map, observations, held, start, rules.converged);
+  for (int i = 0; i < rules.iterations && !descent.is_at_end(); ++i)
+    if (descent.step() < descent.enough()) break;
+  return std::move(descent).end();
 }
 
 double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta,
                     const Eigen::VectorXd& effect_sd) {
-  // Data that no longer determine a coordinate would send it out of its range: it is put at its bound, and the others
-  // are solved for again.
-  FittedModel part = fit;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
+  Eigen::MatrixXd a = fit.whitened_columns(whitener);
   Eigen::VectorXd b = fit.whitened_residual(y, whitener);
   const Eigen::Index rows = b.size();
   b.conservativeResizeLike(Eigen::VectorXd::Zero(rows + effect_sd.size()));
-  while (!part.free.empty()) {
-    Eigen::MatrixXd a = part.whitened_columns(whitener);
-    a.conservativeResizeLike(Eigen::MatrixXd::Zero(b.size(), a.cols()));
-    for (std::size_t k = 0; k < part.free.size() && effect_sd.size() > 0; ++k)
-      if (const int effect = part.free[k] - fit.base_count; effect >= 0)
-        a(rows + effect, static_cast<Eigen::Index>(k)) = 1.0 / effect_sd[effect];
-    const Eigen::VectorXd step = a.householderQr().solve(b);
-    Eigen::Index worst = -1;
-    double excess = 1e-9, bounded = 0.0;
-    for (Eigen::Index k = 0; k < step.size(); ++k) {
-      const int i = part.free[k];
-      const double inside = std::clamp(fit.u[i] + step[k], fit.lower[i], fit.upper[i]) - fit.u[i];
-      if (std::abs(step[k] - inside) > excess) excess = std::abs(step[k] - inside), worst = k, bounded = inside;
-    }
-    if (worst < 0) {
-      for (Eigen::Index k = 0; k < step.size(); ++k) moved[part.free[k]] = step[k];
-      b -= a * step;
-      break;
-    }
-    moved[part.free[worst]] = bounded;
-    b -= a.col(worst) * bounded;
-    part.free.erase(part.free.begin() + worst);
+  a.conservativeResizeLike(Eigen::MatrixXd::Zero(b.size(), a.cols()));
+  for (std::size_t k = 0; k < fit.free.size() && effect_sd.size() > 0; ++k)
+    if (const int effect = fit.free[k] - fit.base_count; effect >= 0)
+      a(rows + effect, static_cast<Eigen::Index>(k)) = 1.0 / effect_sd[effect];
+  const BoundedSolution solved =
+      bounded_least_squares(a, b, (fit.lower - fit.u)(fit.free), (fit.upper - fit.u)(fit.free));
+  if (delta) {
+    *delta = Eigen::VectorXd::Zero(fit.u.size());
+    (*delta)(fit.free) = solved.x;
   }
-  if (delta) *delta = moved;
-  return b.squaredNorm();
+  return solved.rest;
 }
 
 }  // namespace nacre::diagnosis

@@ -27,7 +27,9 @@ struct FittedModel {
   double chi2 = 0.0;          ///< weighted sum of squares, prior included
   StartKind from = StartKind::centre;
   bool extension_on_bound = false;  ///< an extension parameter is at its bound (zero does not count)
-  void free_all();                  ///< every coordinate may move, also one at its bound
+  /// Of the prior at coordinates of this model.
+  double prior_chi2(const Eigen::VectorXd& at) const;
+  void free_all();  ///< every coordinate may move, also one at its bound
   /// Whitened columns of the free coordinates: rows, then those of the prior.
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
   /// Whitened residual of data: rows, then those of the prior.
@@ -38,8 +40,9 @@ struct FittedModel {
   double variance(int coordinate, const Whitener& whitener) const;
 };
 
-/// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
-/// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
+/// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds, on the local model of
+/// the points it passed (local_model.hpp), damped as Nielsen's (IMM-REP-1999-05). Slopes and one or two predictions of
+/// all rows an iteration. Coordinates that are `held` stay where they start.
 FittedModel fit_model(const FeatureModel& model, const Observations& observations, const FitRules& rules,
                       const std::vector<std::string>& effects, const Eigen::VectorXd& start,
                       const std::vector<int>& held = {});

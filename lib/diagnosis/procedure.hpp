@@ -103,8 +103,9 @@ struct EmulatorRules {
 
 /// Fits of base and effects.
 struct FitRules {
-  int iterations = 12;                                 ///< of Levenberg-Marquardt, at most
-  double converged = 0.02;                             ///< a drop of chi squared that no threshold would notice
+  int iterations = 12;      ///< of Levenberg-Marquardt, at most
+  double converged = 0.02;  ///< a drop of chi squared that no threshold would notice, of a fit whose residuals are
+                            ///< noise; of one that misfits as many times more
   std::array<double, 4> sizes{0.03, 0.1, 0.3, 0.6};    ///< of signatures, as shares of an effect's range
   int typical = 2;                                     ///< index of the size at which visibility is judged
   std::array<double, 2> probes{0.1, 0.6};              ///< sizes at which an effect acts on some row, or never
