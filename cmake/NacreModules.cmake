@@ -67,7 +67,7 @@ function(nacre_test name)
     set(ARG_LABEL unit)
   endif()
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 600)
+    set(ARG_TIMEOUT 1200)  # of a hung run: slow cores need half of it
   endif()
   set(target ${ARG_LABEL}_${name}_test)
   add_executable(${target} ${ARG_SOURCES})
