@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../output_of.hpp"
+#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/laboratory_file.hpp"
@@ -95,8 +96,13 @@ inline OpenedTrial run_trial(
   trial.truth = laboratory::parse_laboratory(laboratory, "trial");
   std::vector<measurement::SpecimenRecord> records;
   int print_order = 0;
-  for (const auto& experiment : experiments(trial.truth.seed)) {
-    const auto response = laboratory::respond(trial.truth, experiment);
+  const std::vector<laboratory::Experiment> planned = experiments(trial.truth.seed);
+  std::vector<Result<laboratory::TrueResponse>> responses(planned.size());
+  parallel_for(static_cast<int>(planned.size()),
+               [&](int i) { responses[i] = laboratory::respond(trial.truth, planned[i]); });
+  for (std::size_t e = 0; e < planned.size(); ++e) {
+    const laboratory::Experiment& experiment = planned[e];
+    const Result<laboratory::TrueResponse>& response = responses[e];
     for (int i = 0; i < kReplicates; ++i) {
       std::string name = experiment.design.name() + "-" + std::string(tester::to_string(experiment.test)) +
                          (experiment.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
