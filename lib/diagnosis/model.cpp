@@ -10,10 +10,10 @@
 #include "material/temperature_shift.hpp"
 #include "measurement/held_strain.hpp"
 #include "tester/coupon_law.hpp"
+#include "tester/elastic_key.hpp"
 #include "tester/modulus.hpp"
 #include "tester/paused_pull.hpp"
 #include "tester/relaxation.hpp"
-#include "tester/simulation_key.hpp"
 #include "tester/tensile.hpp"
 
 namespace nacre::diagnosis {
@@ -167,47 +167,74 @@ measurement::PrintContext FeatureModel::print_context(const Observation& group) 
   return {.batch_step = group.batch_step, .machine = group.machine};
 }
 
+tester::Simulation FeatureModel::simulation_of(const Observation& group, const material::ParameterSet& set) const {
+  return {group.design, simulated_side(set), simulated_conditions(group, set), fidelity_};
+}
+
 double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
   const Observation& g = observations_.groups[group];
-  const tester::Simulation simulation{g.design, simulated_side(set), simulated_conditions(g, set), fidelity_};
+  const tester::Simulation simulation = simulation_of(g, set);
   if (g.surroundings.held) {
     const auto held =
         tester::relaxation_modulus(simulation, measurement::rate_of_hold(simulation.conditions.strain_rate_per_s));
     if (!held) throw std::runtime_error(held.error().message);
     return *held;
   }
-  const std::string key = tester::simulation_key(simulation, TestKind::modulus);
+  if (!g.design.layout()) {
+    const auto pulled = tester::test_modulus(simulation);
+    if (!pulled) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), pulled.error().message));
+    return pulled->modulus_pa;
+  }
+  const double relaxed_pa =
+      remembered(tester::elastic_key(simulation), [&] { return probe(group, set)->relaxed_pa(); });
+  return relaxed_pa * tester::rate_factor(simulation);
+}
+
+double FeatureModel::refined_modulus(std::size_t group, const material::ParameterSet& set) const {
+  constexpr int kRefinement = 2;
+  const tester::Simulation simulation = simulation_of(observations_.groups[group], set);
+  const double factor = tester::rate_factor(simulation);
+  const double relaxed_pa = remembered(tester::elastic_key(simulation, kRefinement), [&] {
+    const auto solved = tester::test_modulus(simulation, {.refinement = kRefinement});
+    if (!solved)
+      throw std::runtime_error(
+          fmt::format("modulus of {} at h/2: {}", simulation.design.name(), solved.error().message));
+    return solved->modulus_pa / factor;
+  });
+  return relaxed_pa * factor;
+}
+
+double FeatureModel::remembered(const std::string& key, const std::function<double()>& compute) const {
   {
     const std::lock_guard lock(memory_->mutex);
     if (const auto found = memory_->known.find(key); found != memory_->known.end()) return found->second;
   }
-  double result = 0.0;
-  if (g.design.layout()) {
-    result = probe(group, set)->modulus_pa();
-  } else {
-    const auto pulled = tester::test_modulus(simulation);
-    if (!pulled) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), pulled.error().message));
-    result = pulled->modulus_pa;
-  }
+  const double value = compute();
   const std::lock_guard lock(memory_->mutex);
-  return memory_->known.emplace(key, result).first->second;
+  return memory_->known.emplace(key, value).first->second;
 }
 
 std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group,
                                                                 const material::ParameterSet& set) const {
-  const Observation& g = observations_.groups[group];
-  const tester::Simulation simulation{g.design, simulated_side(set), simulated_conditions(g, set), fidelity_};
-  std::string key = tester::simulation_key(simulation, TestKind::modulus);
+  const tester::Simulation simulation = simulation_of(observations_.groups[group], set);
+  std::string key = tester::elastic_key(simulation);
+  std::shared_ptr<const tester::ModulusProbe> known;
   {
     const std::lock_guard lock(memory_->mutex);
-    if (memory_->last[group].key == key) return memory_->last[group].probe;
+    if (const auto same = std::ranges::find(memory_->last, key, &LastProbe::key); same != memory_->last.end())
+      known = same->probe;
   }
-  auto solved = tester::ModulusProbe::at(simulation);
-  if (!solved) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), solved.error().message));
-  auto shared = std::make_shared<const tester::ModulusProbe>(*std::move(solved));
+  if (!known) {
+    auto solved = tester::ModulusProbe::at(simulation);
+    if (!solved)
+      throw std::runtime_error(fmt::format("modulus of {}: {}", simulation.design.name(), solved.error().message));
+    known = std::make_shared<const tester::ModulusProbe>(*std::move(solved));
+  } else {
+    known = std::make_shared<const tester::ModulusProbe>(known->of(simulation));
+  }
   const std::lock_guard lock(memory_->mutex);
-  memory_->last[group] = {std::move(key), shared};
-  return shared;
+  memory_->last[group] = {std::move(key), known};
+  return known;
 }
 
 void FeatureModel::put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
@@ -343,15 +370,11 @@ Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen:
   const material::ParameterSet set = map.parameters(u);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(observations_.size());
   parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {
-    const Observation& group = observations_.groups[i];
-    if (group.test != TestKind::modulus || !group.design.layout()) return;
-    const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
-    if (!result)
-      throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
-    const double finer = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
-    const double own =
-        std::log(measurement::observe_modulus(modulus(static_cast<std::size_t>(i), set), set.extensions));
-    for (const int row : rows_of_group_[i]) change[row] = finer - own;
+    const auto group = static_cast<std::size_t>(i);
+    if (observations_.groups[group].test != TestKind::modulus || !observations_.groups[group].design.layout()) return;
+    const double finer = std::log(measurement::observe_modulus(refined_modulus(group, set), set.extensions)),
+                 own = std::log(measurement::observe_modulus(modulus(group, set), set.extensions));
+    for (const int row : rows_of_group_[group]) change[row] = finer - own;
   });
   return change;
 }

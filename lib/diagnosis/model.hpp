@@ -2,6 +2,7 @@
 // The forward model f(u): features of every row as a function of the coordinates of a fit.
 
 #include <Eigen/Dense>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -44,7 +45,7 @@ class FeatureModel {
   Eigen::MatrixXd slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted,
                          double step) const;
   /// log E(h/2) - log E(h): refined mesh less the tester's, measurement side included; 0 in rows that are no modulus of
-  /// a layout. Not remembered.
+  /// a layout.
   Eigen::VectorXd mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const;
   /// The curve of a coupon through the machine, along the strains that were measured. Throws std::runtime_error.
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
@@ -53,10 +54,15 @@ class FeatureModel {
   /// What the pauses of a coupon show through the machine.
   measurement::PauseReadings pauses_of(const Observation& group, const material::ParameterSet& set) const;
   measurement::PrintContext print_context(const Observation& group) const;
-  /// E of a layout before the testing machine, remembered.
+  tester::Simulation simulation_of(const Observation& group, const material::ParameterSet& set) const;
+  /// E before the testing machine, remembered.
   double modulus(std::size_t group, const material::ParameterSet& set) const;
-  /// The probe of a layout there: that of the last solution where it is the same.
+  /// The same of a layout on elements of half the size.
+  double refined_modulus(std::size_t group, const material::ParameterSet& set) const;
+  /// The probe of a layout there: that of the last solution of some group where it is the same.
   std::shared_ptr<const tester::ModulusProbe> probe(std::size_t group, const material::ParameterSet& set) const;
+  /// What is known under a key, or else computed; several threads may compute it at once.
+  double remembered(const std::string& key, const std::function<double()>& compute) const;
   void put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
   void put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
                    Eigen::Ref<Eigen::VectorXd> rows) const;
@@ -80,7 +86,8 @@ class FeatureModel {
   };
   struct Memory {
     std::mutex mutex;
-    std::unordered_map<std::string, double> known;  ///< moduli before the machine, by simulation
+    std::unordered_map<std::string, double> known;  ///< moduli before the machine but for tester::rate_factor(), by
+                                                    ///< tester::elastic_key()
     std::vector<LastProbe> last;                    ///< per group
   };
 

@@ -20,13 +20,16 @@ double homogeneous_modulus(const pattern::Mixture& mixture, const Simulation& si
 
 }  // namespace
 
+double rate_factor(const Simulation& simulation) {
+  return material::rate_stiffening(material::law_extensions(simulation.parameters.extensions),
+                                   simulation.conditions.strain_rate_per_s);
+}
+
 Result<ModulusResult> test_modulus(const Simulation& simulation, const Discretisation& discretisation) {
   if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty())
     return fail("modulus tester: {}", fault);
   const bool homogeneous = simulation.design.mixture() != nullptr;
-  // All materials relax alike, so that the branch is a factor.
-  const double at_rate = material::rate_stiffening(material::law_extensions(simulation.parameters.extensions),
-                                                   simulation.conditions.strain_rate_per_s);
+  const double at_rate = rate_factor(simulation);
   if (homogeneous && !discretisation.explicit_modulus)
     return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation) * at_rate};
 

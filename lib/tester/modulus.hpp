@@ -13,4 +13,8 @@ struct ModulusResult {
 /// Error: what made the solution impossible.
 Result<ModulusResult> test_modulus(const Simulation& simulation, const Discretisation& discretisation = {});
 
+/// The part of E that depends on the rate where all materials relax alike: E of a layout is that of the relaxed
+/// constants times this.
+double rate_factor(const Simulation& simulation);
+
 }  // namespace nacre::tester

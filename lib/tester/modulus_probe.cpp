@@ -2,9 +2,9 @@
 
 #include "fem/element.hpp"
 #include "fem/static_solver.hpp"
-#include "material/extended_law.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/modulus.hpp"
 #include "tester/usable.hpp"
 #include "thesis/constants.hpp"
 
@@ -17,11 +17,6 @@ fem::Grid grid_of(const Simulation& simulation) {
                   units.y, refinement_of(simulation.fidelity));
 }
 
-double at_rate(const Simulation& simulation, const material::ParameterSet& parameters) {
-  return material::rate_stiffening(material::law_extensions(parameters.extensions),
-                                   simulation.conditions.strain_rate_per_s);
-}
-
 }  // namespace
 
 Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
@@ -32,8 +27,7 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
   const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
   if (!solution) return fail("modulus probe: {}", solution.error().message);
   ModulusProbe probe;
-  probe.simulation_ = simulation;
-  probe.modulus_pa_ = solution->top_stress_pa / thesis::kModulusStrain * at_rate(simulation, simulation.parameters);
+  probe.relaxed_pa_ = solution->top_stress_pa / thesis::kModulusStrain;
   const int side = kElementsPerUnit * refinement_of(simulation.fidelity);
   probe.shear_.assign(static_cast<std::size_t>(side * side), 0.0);
   probe.bulk_ = probe.shear_;
@@ -51,6 +45,13 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
       probe.bulk_[place] += 0.5 * moved.dot(fem::unit_stiffness().bulk * moved);
     }
   }
+  return probe.of(simulation);
+}
+
+ModulusProbe ModulusProbe::of(const Simulation& simulation) const {
+  ModulusProbe probe = *this;
+  probe.simulation_ = simulation;
+  probe.modulus_pa_ = relaxed_pa_ * rate_factor(simulation);
   probe.energy_ = probe.energy(simulation.parameters);
   return probe;
 }
@@ -66,7 +67,7 @@ double ModulusProbe::energy(const material::ParameterSet& parameters) const {
     const material::Lame& here = lame[unit.kind_of[e]];
     sum += here.mu_pa * shear_[e] + here.lambda_pa * bulk_[e];
   }
-  return sum * at_rate(simulation_, parameters);
+  return sum * rate_factor({simulation_.design, parameters, simulation_.conditions, simulation_.fidelity});
 }
 
 double ModulusProbe::nearby(const material::ParameterSet& parameters) const {
