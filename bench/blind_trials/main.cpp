@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/files.hpp"
+#include "power.hpp"
 #include "runtime/process.hpp"
 #include "score.hpp"
 #include "study/study_command.hpp"
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   TrialOptions trials;
-  std::string fidelity = "full", work = "blind_trials", table, only, commit, report, gains;
+  std::string fidelity = "full", work = "blind_trials", table, only, commit, report, gains, figure;
   double seconds = 1e9;
 };
 
@@ -84,6 +86,9 @@ void run(Options options) {
   if (waiting > 0) fmt::print(stderr, "{} trials are still waiting: run it again\n", waiting);
   fmt::print("{}", report_of(scores));
   if (!options.gains.empty()) compare_gains(options, scores);
+  if (options.figure.empty()) return;
+  fmt::print("\n{}", power_table(scores));
+  write_file_atomically(options.figure, power_figure(scores));
 }
 
 }  // namespace
@@ -123,6 +128,8 @@ int main(int argc, char** argv) {
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();
   app.add_option("--seeds", options.trials.seeds_per_effect, "Trials of each effect, size and scatter")
       ->capture_default_str();
+  app.add_option("--power", options.trials.power, "Trials of each known effect at signal-to-noise ratios of 3 to 12")
+      ->capture_default_str();
   app.add_option("--first-seed", options.trials.first_seed, "Tuning seeds begin here")
       ->check(CLI::Range(1, 999'999))
       ->capture_default_str();
@@ -135,6 +142,8 @@ int main(int argc, char** argv) {
   app.add_option(
       "--gains", options.gains,
       "CSV of gains in cross-validation, of the named and of the true model, for trials that were named rightly");
+  app.add_option("--figure", options.figure,
+                 "SVG of the power against the signal-to-noise ratio; prints its numbers too");
   app.add_option("--seconds", options.seconds, "Begins nothing new after so long");
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -16,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
-#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "broken_trials.hpp"
 #include "laboratory/draw.hpp"
@@ -27,6 +27,7 @@
 #include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
+#include "sealing.hpp"
 
 namespace nacre::blind_trials {
 namespace {
@@ -36,6 +37,11 @@ namespace lab = laboratory;
 using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
+/// Of kind `power`: effects that moduli and coupons show, and the signal-to-noise ratios at which they are hidden.
+constexpr std::array kSeenOnModuli = {"machine_compliance", "droplet_mixing", "interface_anisotropy", "toe_slack",
+                                      "rigid_overprint",    "rigid_yield",    "soft_stiffening",      "rate_dependence",
+                                      "plane_strain",       "batch_drift"};
+constexpr std::array kPowerSignals = {3.0, 4.5, 6.5, 8.0, 12.0};
 constexpr int kNullsOfTruth = 10;  ///< trials of kind `fracture` that share a truth in which nothing is hidden
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
@@ -124,23 +130,6 @@ std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
   return records;
 }
 
-/// Responses of the laboratory, on all cores.
-std::vector<Result<lab::TrueResponse>> responses_of(const lab::Truth& truth,
-                                                    const std::vector<lab::Experiment>& experiments) {
-  std::vector<Result<lab::TrueResponse>> responses(experiments.size(), fail("not yet"));
-  parallel_for(static_cast<int>(experiments.size()),
-               [&](int i) { responses[i] = lab::respond(truth, experiments[i]); });
-  return responses;
-}
-
-using Specimens = std::vector<measurement::SpecimenRecord>;
-
-/// Those that are not broken: fractures would have to be simulated for every effect.
-Specimens without_fractures(Specimens specimens) {
-  std::erase_if(specimens, [](const auto& specimen) { return specimen.test == TestKind::toughness; });
-  return specimens;
-}
-
 /// Replicate i of a trial. Of two machines every second replicate is tested on each, and every batch on both.
 lab::Replicate replicate_of(const BlindTrial& trial, const measurement::SpecimenRecord& planned, std::size_t i) {
   lab::Replicate replicate{.specimen = planned.specimen, .batch = planned.batch, .print_order = planned.print_order};
@@ -149,81 +138,6 @@ lab::Replicate replicate_of(const BlindTrial& trial, const measurement::Specimen
   replicate.on_second_machine = (i % kReplicates + i / kReplicates) % 2 == 1;
   replicate.machine = replicate.on_second_machine ? "second" : "first";
   return replicate;
-}
-
-/// The planned specimens with values without scatter.
-Specimens without_scatter(const BlindTrial& trial, lab::Truth truth, const std::vector<lab::Experiment>& experiments,
-                          const std::vector<Result<lab::TrueResponse>>& responses, const Specimens& planned) {
-  truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
-  Specimens records;
-  for (std::size_t i = 0; i < planned.size(); ++i) {
-    const std::size_t q = i / kReplicates;
-    records.push_back(lab::record_specimen(truth, experiments[q], responses[q], replicate_of(trial, planned[i], i)));
-  }
-  return without_fractures(std::move(records));
-}
-
-/// Settings for the signals of a trial before anything scatters.
-struct Sealing {
-  diagnosis::DiagnosisSettings settings;
-  diagnosis::AssumedScatter scatter;
-};
-
-Sealing sealing_of(const TrialOptions& options, const lab::Truth& truth) {
-  Sealing sealing;
-  diagnosis::DiagnosisSettings& settings = sealing.settings;
-  settings.start = material::default_parameters();
-  settings.start.modulus = truth.modulus;
-  settings.start.toughness = truth.toughness;
-  settings.fidelity = options.fidelity;
-  settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
-  sealing.scatter = {.modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
-  return sealing;
-}
-
-std::string signal_in_toml(std::string_view name, double snr, double collinearity, std::string_view rival,
-                           double ceiling) {
-  return fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", name,
-                     snr, collinearity, rival, ceiling);
-}
-
-/// The same truth with nothing hidden but the effects of these names.
-lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
-  const lab::HiddenEffects hidden = std::exchange(truth.effects, {});
-  for (const lab::EffectKind& kind : lab::effect_kinds()) {
-    if (std::ranges::find(names, kind.name) == names.end()) continue;
-    truth.effects.*kind.value = hidden.*kind.value;
-    if (kind.second.value) truth.effects.*kind.second.value = hidden.*kind.second.value;
-  }
-  return truth;
-}
-
-/// Visibility of every hidden effect in the specimens, beyond what the base imitates: the laboratory's own simulations
-/// with it alone and with nothing. Of known effects the nearest rival too.
-std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const lab::Truth& truth,
-                       const std::vector<lab::Experiment>& experiments, const Specimens& planned) {
-  if (trial.hidden.empty() || is_broken(trial)) return {};
-  const auto shown = [&](std::span<const std::string> names) {
-    const lab::Truth hiding = hiding_only(truth, names);
-    return without_scatter(trial, hiding, experiments, responses_of(hiding, experiments), planned);
-  };
-  std::vector<diagnosis::PlannedEffect> rivals;  // computed only where there are any
-  if (std::ranges::any_of(trial.hidden, material::find_effect))
-    rivals = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
-  const Specimens plain = shown({});
-  std::string text;
-  for (const std::string& effect : trial.hidden) {
-    const double snr = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
-    const auto known = std::ranges::find(rivals, effect, &diagnosis::PlannedEffect::name);
-    if (known == rivals.end()) {
-      text += signal_in_toml(effect, snr, 0.0, "", 0.0);
-      continue;
-    }
-    const double distance = snr * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += signal_in_toml(effect, snr, known->rival_cosine, known->nearest_rival,
-                           0.5 * std::erfc(-distance / std::sqrt(2.0)));
-  }
-  return text;
 }
 
 /// Shown modulus over true one, of a modulus that is this share of the largest: powers 1/2 to 3 of either sign, or one
@@ -237,7 +151,7 @@ double distortion(const BlindTrial& trial, double share) {
   return 1.0 + size * (saturates ? std::tanh(5.0 * share) : std::pow(share, kPowers[form]));
 }
 
-void distort(const BlindTrial& trial, Specimens& records) {
+void distort(const BlindTrial& trial, std::vector<measurement::SpecimenRecord>& records) {
   double largest_pa = 0.0;
   for (const auto& record : records) largest_pa = std::max(largest_pa, record.modulus_pa.value_or(0.0));
   for (auto& record : records)
@@ -327,6 +241,12 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
   add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
   add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);
+  for (const char* name : kSeenOnModuli)
+    for (const double signal : kPowerSignals)
+      for (int i = 0; i < options.power; ++i) {
+        add("power", fmt::format("{}-{:g}", name, signal), {name}, true, false);
+        trials.back().signal = signal;
+      }
   std::uint64_t truth_seed = options.first_seed;
   const auto add_shared = [&](const std::string& what, std::vector<std::string> hidden, bool large) {
     add("fracture", what, std::move(hidden), large, false);
@@ -405,28 +325,44 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
   return experiments;
 }
 
-void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
-  const lab::Truth truth = truth_of(trial, options);
-  const std::vector<lab::Experiment> experiments = experiments_of(trial, options);
-  const std::vector<Result<lab::TrueResponse>> responses =
-      is_broken(trial) ? responses_of_pool(trial, options, truth, experiments) : responses_of(truth, experiments);
-  Specimens records = planned(trial, experiments, responses);
-  // Printed in an order drawn from the seed.
-  std::vector<int> order;
-  for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);
+namespace {
+
+/// What a trial prints, in an order drawn from its seed.
+Printed printed_by(const BlindTrial& trial, const TrialOptions& options, const lab::Truth& truth) {
+  Printed printed{.experiments = experiments_of(trial, options), .responses = {}, .specimens = {}, .replicates = {}};
+  printed.responses = is_broken(trial) ? responses_of_pool(trial, options, truth, printed.experiments)
+                                       : lab::responses_to(truth, printed.experiments);
+  printed.specimens = planned(trial, printed.experiments, printed.responses);
+  std::vector<int> order(printed.specimens.size());
+  std::iota(order.begin(), order.end(), 1);
   RandomStream random(trial.seed, "trial/print order");
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(static_cast<int>(i))]);
-  for (std::size_t i = 0; i < records.size(); ++i) records[i].print_order = order[i];
-  const Sealing sealing = sealing_of(options, truth);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    printed.specimens[i].print_order = order[i];
+    printed.replicates.push_back(replicate_of(trial, printed.specimens[i], i));
+    if (is_broken(trial)) printed.replicates[i].number = drawn_from_pool(trial, i / kReplicates)[i % kReplicates];
+  }
+  return printed;
+}
+
+}  // namespace
+
+void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
+  lab::Truth truth = truth_of(trial, options);
+  Printed printed = printed_by(trial, options, truth);
+  if (trial.signal > 0.0) {
+    truth = sized_to(trial.signal, trial, options, truth, printed);
+    printed = printed_by(trial, options, truth);
+  }
   const std::string signals = fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
-                                          signals_of(trial, sealing, truth, experiments, records));
+                                          is_broken(trial) ? "" : signals_of(trial, options, truth, printed));
   lab::Truth scattering = truth;
   scattering.seed = trial.seed;
-  for (std::size_t i = 0; i < records.size(); ++i) {
+  std::vector<measurement::SpecimenRecord> records;
+  for (std::size_t i = 0; i < printed.specimens.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    lab::Replicate replicate = replicate_of(trial, records[i], i);
-    if (is_broken(trial)) replicate.number = drawn_from_pool(trial, q)[i % kReplicates];
-    records[i] = lab::record_specimen(scattering, experiments[q], responses[q], replicate);
+    records.push_back(
+        lab::record_specimen(scattering, printed.experiments[q], printed.responses[q], printed.replicates[i]));
   }
   if (trial.kind == "distorted") distort(trial, records);
   fs::create_directories(folder);

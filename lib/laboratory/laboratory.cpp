@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -307,6 +308,18 @@ Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment) {
       return respond_tensile(truth, experiment);
   }
   return fail("an unknown test");
+}
+
+std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
+                                               const std::function<void(std::size_t)>& done) {
+  std::vector<Result<TrueResponse>> responses(experiments.size());
+  std::mutex mutex;
+  parallel_for(static_cast<int>(experiments.size()), [&](int i) {
+    responses[i] = respond(truth, experiments[i]);
+    const std::lock_guard lock(mutex);
+    if (done) done(static_cast<std::size_t>(i));
+  });
+  return responses;
 }
 
 SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<TrueResponse>& response,

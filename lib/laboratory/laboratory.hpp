@@ -3,6 +3,7 @@
 // (the same for all replicates) and what scatters or is added by the machine are two steps, so that one simulation
 // serves every replicate.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,11 @@ struct TrueResponse {
 /// (`tensile` of a layout, an orientation other than 0 and 90, fracture at another temperature, a hold that is shorter
 /// than two ramps, or of a law that has no relaxation function).
 Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
+
+/// The same of each of many, on all allowed cores; `done` is called, from one thread at a time, with the index of each
+/// that has ended.
+std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
+                                               const std::function<void(std::size_t)>& done = {});
 
 /// One replicate: how it is called and where it was printed.
 struct Replicate {

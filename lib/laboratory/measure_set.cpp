@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "base/files.hpp"
-#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "laboratory/laboratory_file.hpp"
@@ -80,23 +78,16 @@ std::string name_of(const Experiment& experiment, const Campaign& campaign, cons
 double effort_of(const Experiment& experiment) { return experiment.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
 
 /// Makes all experiments, reporting progress as they end.
-std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
-                                               const CampaignProgress& progress) {
-  std::vector<std::optional<Result<TrueResponse>>> responses(experiments.size());
+std::vector<Result<TrueResponse>> responses_with_progress(const Truth& truth,
+                                                          const std::vector<Experiment>& experiments,
+                                                          const CampaignProgress& progress) {
   double whole = 0.0, spent = 0.0;
   for (const Experiment& experiment : experiments) whole += effort_of(experiment);
   int done = 0;
-  std::mutex mutex;
-  parallel_for(experiments.size(), [&](int i) {
-    const auto q = static_cast<std::size_t>(i);
-    responses[q] = respond(truth, experiments[q]);
-    const std::lock_guard lock(mutex);
-    spent += effort_of(experiments[q]);
+  return responses_to(truth, experiments, [&](std::size_t i) {
+    spent += effort_of(experiments[i]);
     if (progress) progress(spent / whole, ++done, static_cast<int>(experiments.size()));
   });
-  std::vector<Result<TrueResponse>> all;
-  for (auto& response : responses) all.push_back(*std::move(response));
-  return all;
 }
 
 /// A specimen to be recorded: of which experiment, and which replicate it is.
@@ -145,7 +136,7 @@ void require_new(const std::filesystem::path& folder) {
 
 std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
   const std::vector<Experiment> experiments = experiments_of(truth, campaign);
-  const std::vector<Result<TrueResponse>> responses = responses_to(truth, experiments, progress);
+  const std::vector<Result<TrueResponse>> responses = responses_with_progress(truth, experiments, progress);
   std::vector<Planned> plan;
   for (std::size_t q = 0; q < experiments.size(); ++q) {
     for (int k = 1; k <= truth.replicates; ++k) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "../output_of.hpp"
-#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/laboratory_file.hpp"
@@ -96,10 +95,9 @@ inline OpenedTrial run_trial(
   trial.truth = laboratory::parse_laboratory(laboratory, "trial");
   std::vector<measurement::SpecimenRecord> records;
   int print_order = 0;
-  const std::vector<laboratory::Experiment> planned = experiments(trial.truth.seed);
-  std::vector<Result<laboratory::TrueResponse>> responses(planned.size());
-  parallel_for(static_cast<int>(planned.size()),
-               [&](int i) { responses[i] = laboratory::respond(trial.truth, planned[i]); });
+  std::vector<laboratory::Experiment> planned = experiments(trial.truth.seed);
+  for (laboratory::Experiment& each : planned) each.fidelity = trial.truth.fidelity;
+  const auto responses = laboratory::responses_to(trial.truth, planned);
   for (std::size_t e = 0; e < planned.size(); ++e) {
     const laboratory::Experiment& experiment = planned[e];
     const Result<laboratory::TrueResponse>& response = responses[e];

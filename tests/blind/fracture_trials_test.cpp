@@ -18,7 +18,6 @@ std::vector<laboratory::Experiment> notched_layouts(std::uint64_t) {
                            "0dfff39f70f13b", "67db5ae75bfa5f", "7df3fb67ffbecf"})
     experiments.push_back({.design = expected(pattern::design_from_name(name)),
                            .test = tester::TestKind::toughness,
-                           .fidelity = tester::Fidelity::tiny,
                            .specimens = kReplicates});
   return experiments;
 }
