@@ -4,17 +4,33 @@
 #include <memory>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "explore/batch_log.hpp"
 #include "explore/mechanics.hpp"
 #include "material/parameter_file.hpp"
 #include "store/kept_simulation.hpp"
+#include "tester/strength_field.hpp"
 
 namespace nacre::offline {
 
 std::string model_identity(const ExploreSettings& settings) {
   return content_hash(std::string(to_string(settings.fidelity)) + material::to_toml(settings.parameters));
+}
+
+std::string search_fault(const ExploreSettings& settings) {
+  const explore::SearchSettings& search = settings.search;
+  const int specimens = search.learned.specimens;
+  const bool learns = search.algorithm == "learned";
+  if (specimens > 1 && !learns)
+    return fmt::format("specimens: `{}` tests one specimen of a pattern, expected algorithm learned", search.algorithm);
+  if (!search.former.empty() && !learns)
+    return fmt::format("former: `{}` cannot learn from former samples, expected algorithm learned", search.algorithm);
+  if (specimens > 1 && !tester::specimens_differ(settings.parameters))
+    return "specimens: without strength_cv all specimens are alike, expected 1";
+  return {};
 }
 
 Explored explore_gamut(ExploreSettings settings, const ExploreEvents& events) {

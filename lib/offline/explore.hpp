@@ -25,6 +25,9 @@ struct ExploreSettings {
 /// By which a record of a search (explore::BatchLog) knows its model: parameters and fidelity.
 std::string model_identity(const ExploreSettings& settings);
 
+/// Which option does not fit the algorithm or the parameters, its name first ("specimens: ..."); empty: none.
+std::string search_fault(const ExploreSettings& settings);
+
 /// What is told while a search runs; what these throw ends it.
 struct ExploreEvents {
   std::function<void()> simulated;                                   ///< a pattern, from any thread

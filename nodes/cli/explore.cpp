@@ -58,12 +58,6 @@ explore::SearchSettings search_settings(const ExploreOptions& options) {
   settings.batch = options.batch;
   settings.seed = options.seed;
   settings.learned.specimens = options.specimens;
-  if (options.specimens > 1 && options.algorithm != "learned")
-    throw InputError::format("--specimens: `{}` tests one specimen of a pattern, expected --algorithm learned",
-                             options.algorithm);
-  if (!options.former.empty() && options.algorithm != "learned")
-    throw InputError::format("--former: `{}` cannot learn from former samples, expected --algorithm learned",
-                             options.algorithm);
   if (!options.known.empty()) settings.known = explore::read_gamut_csv(options.known);
   if (options.former.empty()) return settings;
   settings.former = explore::read_gamut_csv(options.former);
@@ -77,8 +71,7 @@ offline::ExploreSettings settings_from(const ExploreOptions& options) {
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.parameters = parameters_from_option(options.params, material::default_parameters());
   settings.search = search_settings(options);
-  if (options.specimens > 1 && !tester::specimens_differ(settings.parameters))
-    throw InputError("--specimens: without strength_cv all specimens are alike, expected 1");
+  if (const std::string fault = offline::search_fault(settings); !fault.empty()) throw InputError("--" + fault);
   settings.cache = options.cache;
   if (!options.cache.empty() || options.ask_tell) settings.batches = options.out + ".batches";
   const explore::SearchSettings& search = settings.search;

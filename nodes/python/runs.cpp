@@ -112,7 +112,8 @@ Returns a dict:
     families: of the stage after the game, each with its parameters, designs and gamut;
     specimens: specimen, design, test, round (None: nobody ordered it), measured_in, conditions, modulus_pa,
         toughness_pa (None: not measured), curve, valid, note.
-    A gamut has arrays of equal length: pattern (keys), modulus_pa, toughness_pa, is_on_front.
+    A gamut has arrays of equal length: pattern (keys), modulus_pa, toughness_pa, specimens,
+    toughness_se_pa (0: unknown), is_on_front.
 Raises InputError where run.db cannot be read.)";
 
 }  // namespace

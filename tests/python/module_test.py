@@ -106,13 +106,24 @@ class Explore(unittest.TestCase):
             written = pathlib.Path(out).read_text()
             here = nacre.explore(**options, out=out)
             self.assertEqual(pathlib.Path(out).read_text(), written)
-        columns = {name: here.pop(name) for name in ("pattern", "modulus_pa", "toughness_pa", "is_on_front")}
+        names = ("pattern", "modulus_pa", "toughness_pa", "specimens", "toughness_se_pa", "is_on_front")
+        columns = {name: here.pop(name) for name in names}
         self.assertEqual(here, there)
         rows = [line.split(",") for line in written.splitlines()[1:]]
         self.assertEqual(list(columns["pattern"]), [row[1] for row in rows])
         self.assertEqual(list(columns["modulus_pa"]), [float(row[3]) for row in rows])
         self.assertEqual(list(columns["toughness_pa"]), [float(row[4]) for row in rows])
         self.assertEqual(columns["is_on_front"].sum(), there["front"])
+        self.assertEqual(set(columns["specimens"]), {1})
+        self.assertEqual(set(columns["toughness_se_pa"]), {0.0})
+
+    def test_specimens_are_tested_where_they_decide(self):
+        start = {"algorithm": "learned", "population": 6, "batch": 6, "seed": 3, "fidelity": "tiny"}
+        gamut = nacre.explore(**start, budget=64, specimens=4)
+        self.assertEqual(gamut["specimens"].sum(), 64)
+        means = gamut["specimens"] > 1
+        self.assertTrue(means.any())
+        self.assertTrue((gamut["toughness_se_pa"][means] > 0.0).all())
 
 
 class Sets(unittest.TestCase):
@@ -172,6 +183,9 @@ class Errors(unittest.TestCase):
         self.assert_refused("no-such.toml", lambda: nacre.simulate("a", params="no-such.toml"))
         self.assert_refused("budget 0: expected 1 to", lambda: nacre.explore(budget=0))
         self.assert_refused("seed -1", lambda: nacre.explore(seed=-1))
+        self.assert_refused("specimens: `nsga2` tests one specimen", lambda: nacre.explore(specimens=2))
+        alike = {"params": {"toughness": {"strength_cv": 0.0}}, "algorithm": "learned", "specimens": 2}
+        self.assert_refused("specimens: without strength_cv", lambda: nacre.explore(**alike))
         self.assert_refused("no-such-set", lambda: nacre.calibrate("no-such-set"))
         self.assert_refused("search: ", lambda: nacre.calibrate(SOURCE / "data/examples/round1", search="luck"))
         self.assert_refused("no-such-set", lambda: nacre.diagnose("no-such-set"))

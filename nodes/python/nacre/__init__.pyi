@@ -58,6 +58,7 @@ def explore(
     seed: int = ...,
     population: int = ...,
     batch: int = ...,
+    specimens: int = ...,
     out: Optional[Path] = ...,
     cache: Optional[Path] = ...,
     known: Optional[Path] = ...,
