@@ -10,12 +10,10 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kMaterials = 3;
-
 /// Base materials whose E only layouts tell.
 std::vector<int> untold(const Observations& observations) {
   std::vector<int> materials;
-  for (int material = 0; material < kMaterials; ++material)
+  for (int material = 0; material < static_cast<int>(kConstantMaterials.size()); ++material)
     if (!is_told_by_own_specimens(observations, material)) materials.push_back(material);
   return materials;
 }
