@@ -67,12 +67,13 @@ class Installed : public testing::Test {
   static std::string said_by_program(const std::vector<std::string>& words, int status = 0) {
     ChildProcess process(words);
     std::string said;
-    const runtime::ProcessEnd end = wait_for_end(process, said, 100.0);
+    const runtime::ProcessEnd end = wait_for_end(process, said, kPatienceS);
     EXPECT_EQ(end.exit_status, status) << said;
     EXPECT_EQ(end.signal, 0) << said;
     return said;
   }
 
+  static constexpr double kPatienceS = 400.0;  ///< a game takes 30 s of a fast core
   inline static fs::path folder_;
 };
 
