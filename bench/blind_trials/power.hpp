@@ -13,7 +13,7 @@ namespace nacre::blind_trials {
 /// the likelihood-ratio test of the known effect against none at the level of a name (Neyman and Pearson 1933). SVG.
 std::string power_figure(const std::vector<Score>& scores);
 
-/// The same numbers as Markdown: rows effects, columns bins, "named/noticed of trials".
+/// The same numbers as Markdown: rows effects, columns bins, "named, noticed, trials".
 std::string power_table(const std::vector<Score>& scores);
 
 }  // namespace nacre::blind_trials

@@ -69,13 +69,13 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
   return truth;
 }
 
-/// Points of a search for a magnitude, both in logarithms; the signal grows with `direction` times the magnitude.
+/// A point of a search for a magnitude, both in logarithms.
 struct SizedSignal {
   double magnitude = 0.0, signal = 0.0;
 };
 
 /// Where the signal may be `wanted`: by the line through the bracket where that lies well inside of it, else its
-/// middle; outward by a factor of two where one side is missing.
+/// middle; outward by a factor of two where one side is missing. The signal grows with `direction` times the magnitude.
 double next_magnitude(const std::vector<SizedSignal>& known, double wanted, double direction) {
   const SizedSignal *weaker = nullptr, *stronger = nullptr;
   for (const SizedSignal& each : known) {

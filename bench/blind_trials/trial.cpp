@@ -22,7 +22,6 @@
 #include "laboratory/draw.hpp"
 #include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory_file.hpp"
-#include "material/extensions.hpp"
 #include "measurement/read_set.hpp"
 #include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
@@ -241,12 +240,6 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
   add_in_turn("loops", {"", "rigid_yield", "rate_dependence", "soft_rate_dependence"}, options.loops);
   add_in_turn("spectrum", {"", "rate_prony", "rate_power_law", "rate_dependence"}, options.spectra);
   add_in_turn("warm", {"", "rate_power_law", "rate_dependence"}, options.warm);
-  for (const char* name : kSeenOnModuli)
-    for (const double signal : kPowerSignals)
-      for (int i = 0; i < options.power; ++i) {
-        add("power", fmt::format("{}-{:g}", name, signal), {name}, true, false);
-        trials.back().signal = signal;
-      }
   std::uint64_t truth_seed = options.first_seed;
   const auto add_shared = [&](const std::string& what, std::vector<std::string> hidden, bool large) {
     add("fracture", what, std::move(hidden), large, false);
@@ -265,6 +258,13 @@ std::vector<BlindTrial> all_trials(const TrialOptions& options) {
       ++truth_seed;
       for (int i = 0; i < options.fracture_seeds; ++i) add_shared(name, {name}, large);
     }
+  // The last, so that their number changes no other trial.
+  for (const char* name : kSeenOnModuli)
+    for (const double signal : kPowerSignals)
+      for (int i = 0; i < options.power; ++i) {
+        add("power", fmt::format("{}-{:g}", name, signal), {name}, true, false);
+        trials.back().signal = signal;
+      }
   return trials;
 }
 

@@ -20,7 +20,6 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
-#include "tester/strength_field.hpp"
 
 namespace nacre::cli {
 namespace {
