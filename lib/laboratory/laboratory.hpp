@@ -14,6 +14,9 @@
 
 namespace nacre::laboratory {
 
+/// Rises whenever a response changes: those of another version are not taken for it.
+inline constexpr int kResponseVersion = 1;
+
 /// One test of one design: the laboratory's unit of work, which one simulation serves.
 struct Experiment {
   pattern::Design design;
