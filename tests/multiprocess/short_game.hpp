@@ -14,6 +14,7 @@ samples = 10
 seeds = 1
 population = 5
 designs = 1
+"redraws" = 1
 
 [validation]
 random_patterns = 2
