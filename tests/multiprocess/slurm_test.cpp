@@ -23,6 +23,7 @@
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
 #include "simulator_farm/test_request.hpp"
+#include "virtual_lab/kept_responses.hpp"
 
 namespace nacre {
 namespace {
@@ -296,6 +297,10 @@ TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
   std::ofstream(folder_ / "slurm.toml") << short_game("cluster", 1) << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
   std::map<std::string, SentInGame> said;
   for (const std::string executor : {"threads", "slurm"}) {
+    if (executor == "slurm") {  // the farm simulates anew, the laboratory need not
+      fs::create_directories(folder_ / "slurm");
+      fs::copy(folder_ / "threads" / virtual_lab::kKeptFolder, folder_ / "slurm" / virtual_lab::kKeptFolder);
+    }
     PlayedGame game(folder_ / (executor + ".toml"), folder_ / executor, "game");
     ASSERT_TRUE(game.play_to_end(200.0)) << game.said();
     ASSERT_EQ(game.status(), 0) << game.said();
