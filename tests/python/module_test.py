@@ -35,8 +35,8 @@ def without_speed(entry):
 
 class Simulate(unittest.TestCase):
     def test_two_designs_are_those_of_the_command_line(self):
-        there = told("simulate", PUBLISHED, "mix:0.65", "--fidelity", "preview")
-        here = nacre.simulate([PUBLISHED, "mix:0.65"], fidelity="preview")
+        there = told("simulate", PUBLISHED, "mix:0.65", "--fidelity", "preview", "--specimens", 3)
+        here = nacre.simulate([PUBLISHED, "mix:0.65"], fidelity="preview", specimens=3)
         self.assertEqual([without_speed(e) for e in here], [without_speed(e) for e in there])
         self.assertGreater(here[0]["modulus_pa"], 1e8)
         self.assertGreater(here[0]["toughness_pa"], 1e5)
@@ -247,7 +247,7 @@ class Progress(unittest.TestCase):
         thread = threading.Thread(target=tick)
         thread.start()
         begun = time.monotonic()
-        nacre.simulate("a", fidelity="preview", test="toughness")
+        nacre.simulate("a", fidelity="tiny", test="toughness")
         end = time.monotonic()
         ended.set()
         thread.join()
