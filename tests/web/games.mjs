@@ -1,7 +1,7 @@
 // Real games and dashboards, ended with the test.
 
 import { spawn, execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -13,6 +13,9 @@ const NACRE = join(BUILD, "bin/nacre");
 export const folder = join(BUILD, "web-runs", basename(process.argv[1], ".mjs"));
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
+// What was simulated for one file of tests serves the others.
+mkdirSync(join(BUILD, "web-runs/virtual_lab.kept"), { recursive: true });
+for (const cache of ["virtual_lab.kept", "simulations.db"]) symlinkSync(join("..", cache), join(folder, cache));
 const children = new Set();
 /** Ends every program that still runs: a test that failed may have left one. */
 export function endAll() {
