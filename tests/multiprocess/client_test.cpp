@@ -23,6 +23,7 @@ samples = 12
 seeds = 1
 population = 6
 designs = 1
+"redraws" = 1
 [validation]
 random_patterns = 2
 replicates = 2

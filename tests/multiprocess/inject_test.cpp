@@ -27,6 +27,7 @@ samples = 16
 seeds = 1
 population = 6
 designs = 2
+"redraws" = 1
 [validation]
 random_patterns = 1
 replicates = 2

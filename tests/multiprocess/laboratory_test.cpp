@@ -189,6 +189,7 @@ samples = 12
 seeds = 1
 population = 6
 designs = 1
+"redraws" = 1
 [validation]
 random_patterns = 0
 replicates = 2
@@ -206,9 +207,15 @@ std::map<std::string, std::string> states(const fs::path& run) {
   return states;
 }
 
+/// One for all: they share the farm's cache.
+const fs::path& folder_of_games() {
+  static const fs::path folder = fresh_folder("games");
+  return folder;
+}
+
 TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryProcess) {
   const fs::path folder = fresh_folder("laboratory");
-  PersonsGame person(folder, "states", kScenario);
+  PersonsGame person(folder_of_games(), "states", kScenario);
   const std::string run = person.run().string();
   person.wait_for("orders of the base materials", [&] { return person.orders().size() == 6; });
   EXPECT_THAT(person.game().said(), HasSubstr("round 1, as expected: 16 specimens on 2 trays, 202 slices,"));
@@ -293,7 +300,7 @@ Outcome inject_one(const fs::path& set, const measurement::SpecimenRecord& speci
 
 TEST(LaboratoryGame, WhatCannotBeMadeIsWithdrawnWhatWasMistypedIsAmendedAndTheGameEnds) {
   const fs::path folder = fresh_folder("corrections");
-  PersonsGame person(folder, "corrections", kScenario);
+  PersonsGame person(folder_of_games(), "corrections", kScenario);
   const std::string run = person.run().string();
   person.wait_for("orders of the base materials", [&] { return person.orders().size() == 6; });
   person.decide(
