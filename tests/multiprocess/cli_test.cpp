@@ -414,7 +414,7 @@ TEST_F(CommandLine, CalibrateFitsBaseMaterialsAndNamesWhatItLeavesOut) {
 }
 
 TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
-  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\n");
+  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n");
   ASSERT_EQ(
       run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "3ffc9b4ad4d2d9"}).status, 0);
   const std::vector<std::string> command = {"families", path("set"), "--fidelity", "tiny",          "--samples",
