@@ -9,21 +9,17 @@
 #include "base/result.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/laboratory_file.hpp"
+#include "runtime/journal.hpp"
 
 namespace nacre::virtual_lab {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A file is the hash of what follows its first line.
 std::optional<std::string> whole_response(const fs::path& file) try {
-  if (!fs::exists(file)) return std::nullopt;
-  const std::string text = read_file(file);
-  const std::size_t end = text.find('\n');
-  if (end == std::string::npos) return std::nullopt;
-  std::string response = text.substr(end + 1);
-  if (text.substr(0, end) != content_hash(response)) return std::nullopt;
-  return response;
+  auto fields = runtime::unpack(read_file(file));
+  if (!fields || fields->size() != 1) return std::nullopt;
+  return std::move(fields->front());
 } catch (const InputError&) {
   return std::nullopt;
 }
@@ -38,7 +34,7 @@ runtime::WorkFunction kept(runtime::WorkFunction work, const laboratory::Truth& 
     std::string response = work(spec);
     try {
       make_folder(folder);
-      write_file_atomically(file, content_hash(response) + "\n" + response);
+      write_file_atomically(file, runtime::pack({response}));
     } catch (const InputError&) {
       // The response is right all the same.
     }
